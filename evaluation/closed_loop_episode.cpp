@@ -12,9 +12,9 @@ using sweep_guard_core::Twist;
 namespace {
 
 constexpr size_t kWatched = 400;  // cycles before a placement in which its episode may begin
-constexpr size_t kUntouchedCycles =
-    20;                             // cycles before the begin in which a guard changes nothing: more than is in flight
-constexpr size_t kUntilPlanes = 3;  // cycles until a guard has its first planes
+// Cycles before the begin in which a guard changes nothing: more than is in flight.
+constexpr size_t kUntouchedCycles = 20;
+constexpr size_t kUntilPlanes = 3;    // cycles until a guard has its first planes
 constexpr size_t kReachedLater = 20;  // cycles for which a surface within reach counts: planes and poses are late
 constexpr size_t kCame = 50;          // cycles of the way in that are retraced
 constexpr double kHeld = 0.5;         // share of the speed below which the tool is held

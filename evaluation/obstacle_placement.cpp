@@ -25,13 +25,13 @@ constexpr double kMaxGap = 0.1;           // [m] of a near miss
 constexpr int kTriesForPlacement = 1000;  // for each placement, on average
 
 /// A moment of the motion that has room for an episode.
-struct Moment {
+struct EpisodeMoment {
   Time time;
   Eigen::Isometry3d X_WT;
   Eigen::Vector3d velocity_W;  // of the tip [m/s]
 };
 
-std::optional<Moment> randomMoment(const RecordedMotion& motion, Duration after, Random& random) {
+std::optional<EpisodeMoment> randomMoment(const RecordedMotion& motion, Duration after, Random& random) {
   const Duration length = motion.poses().back().stamp - motion.poses().front().stamp;
   const Time time = motion.poses().front().stamp +
                     sweep_guard_core::fromSeconds(random.uniform(0.0, sweep_guard_core::toSeconds(length)));
@@ -40,7 +40,7 @@ std::optional<Moment> randomMoment(const RecordedMotion& motion, Duration after,
       motion.at(time + kHalfVelocityWindow).translation() - motion.at(time - kHalfVelocityWindow).translation();
   const Eigen::Vector3d velocity_W = displacement_W / sweep_guard_core::toSeconds(2 * kHalfVelocityWindow);
   if (velocity_W.norm() < kRestSpeed) return std::nullopt;
-  return Moment{time, motion.at(time), velocity_W};
+  return EpisodeMoment{time, motion.at(time), velocity_W};
 }
 
 /// Returns the tool point that is farthest along a direction.
@@ -60,7 +60,7 @@ constexpr ObstacleRange kContactRange = {60.0, 0.9, 0.0};
 constexpr ObstacleRange kMissRange = {90.0, 2.0, kMaxGap};
 
 /// Returns an obstacle in a tangent plane of the tool that faces its velocity, shifted at random.
-SquareObstacle randomObstacle(const ConvexShape& tool, const Moment& moment, const ObstacleRange& range,
+SquareObstacle randomObstacle(const ConvexShape& tool, const EpisodeMoment& moment, const ObstacleRange& range,
                               Random& random) {
   const Eigen::Matrix3d R_WV = random.frameWithZ(moment.velocity_W.normalized());
   const double angle = random.uniform(0.0, range.tilt * kPi / 180.0);
@@ -77,7 +77,7 @@ SquareObstacle randomObstacle(const ConvexShape& tool, const Moment& moment, con
 }
 
 std::optional<ObstaclePlacement> tryContact(const RecordedMotion& motion, const ConvexShape& tool, Random& random) {
-  const std::optional<Moment> moment = randomMoment(motion, Duration(0), random);
+  const std::optional<EpisodeMoment> moment = randomMoment(motion, Duration(0), random);
   if (!moment) return std::nullopt;
   const SquareObstacle obstacle = randomObstacle(tool, *moment, kContactRange, random);
   const Time begin = moment->time - kBefore;
@@ -87,7 +87,7 @@ std::optional<ObstaclePlacement> tryContact(const RecordedMotion& motion, const 
 }
 
 std::optional<ObstaclePlacement> tryMiss(const RecordedMotion& motion, const ConvexShape& tool, Random& random) {
-  const std::optional<Moment> moment = randomMoment(motion, kAfter + kUntouchedAfter, random);
+  const std::optional<EpisodeMoment> moment = randomMoment(motion, kAfter + kUntouchedAfter, random);
   if (!moment) return std::nullopt;
   const SquareObstacle obstacle = randomObstacle(tool, *moment, kMissRange, random);
   if (!intersects(tool, moment->X_WT, obstacle, kMaxGap)) return std::nullopt;

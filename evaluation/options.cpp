@@ -173,9 +173,8 @@ std::string usage() {
   text << "Usage: evaluate_prediction [options] FILE...\n\n"
           "Measures how well recorded motions are predicted, and how early and how often the guard warns. FILE is a\n"
           "motion file (lines `stamp tx ty tz qx qy qz qw` in s and m) or a rosbag with geometry_msgs/PoseStamped or\n"
-          "TransformStamped. Prints tables of the results. `rosrun sweep_guard plot.py FILE.csv FILE.png` draws the "
-          "files\n"
-          "that it writes.\n\n"
+          "TransformStamped. Prints tables of the results. `rosrun sweep_guard plot.py FILE.csv FILE.png` draws what\n"
+          "it writes for --csv, --tradeoff-csv, --sessions-csv, --tune-csv and --calibration-csv.\n\n"
        << outputOptions(options) << '\n'
        << predictionOptions(options) << '\n'
        << warningOptions(options) << '\n'

@@ -51,9 +51,10 @@ Alarm judgedInterval(const RecordedMotion& motion, const Alarm& alarm) {
   return {motion.poses()[pose == 0 ? 0 : pose - 1].stamp, end};
 }
 
-bool isJustified(const std::vector<Touch>& touches, const Alarm& judged) {
-  return std::any_of(touches.begin(), touches.end(),
-                     [&](const Touch& touch) { return touch.begin <= judged.end && touch.end >= judged.begin; });
+bool isJustified(const std::vector<TouchInterval>& touches, const Alarm& judged) {
+  return std::any_of(touches.begin(), touches.end(), [&](const TouchInterval& touch) {
+    return touch.begin <= judged.end && touch.end >= judged.begin;
+  });
 }
 
 void countAlarm(const ObjectSession& session, const Alarm& alarm, SessionCount& count) {
@@ -71,10 +72,10 @@ void countAlarm(const ObjectSession& session, const Alarm& alarm, SessionCount& 
 
 }  // namespace
 
-std::vector<Touch> touchesOf(const RecordedMotion& motion, const ConvexShape& tool, ObstacleMesh& object) {
+std::vector<TouchInterval> touchesOf(const RecordedMotion& motion, const ConvexShape& tool, ObstacleMesh& object) {
   const Time last = motion.poses().back().stamp;
   const ClearanceAt clearance = object.clearance();
-  std::vector<Touch> touches;
+  std::vector<TouchInterval> touches;
   Time from = motion.poses().front().stamp;
   while (const auto contact = firstContact(motion, tool, clearance, from, last)) {
     Time end = *contact;

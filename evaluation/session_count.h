@@ -20,14 +20,14 @@ constexpr std::array<double, 4> kSessionLeads = {0.1, 0.3, 0.5, 1.0};          /
 constexpr std::array<double, 3> kNearMisses = {0.010, 0.020, kExactDistance};  // [m]
 
 /// An interval in which the tool touches an object: `begin` is exact, `end` late by at most 5 ms.
-struct Touch {
+struct TouchInterval {
   sweep_guard_core::Time begin;
   sweep_guard_core::Time end;
 };
 
 /// Returns all touches of the recorded motion in the order of time.
-std::vector<Touch> touchesOf(const RecordedMotion& motion, const sweep_guard_core::ConvexShape& tool,
-                             ObstacleMesh& object);
+std::vector<TouchInterval> touchesOf(const RecordedMotion& motion, const sweep_guard_core::ConvexShape& tool,
+                                     ObstacleMesh& object);
 
 /// Returns the smallest distance of tool and object [m] from one time to another, to 1 mm. Beyond kExactDistance,
 /// returns a lower bound that is no smaller.
@@ -56,7 +56,7 @@ struct ObjectSession {
   const RecordedMotion& motion;
   const sweep_guard_core::ConvexShape& tool;
   ObstacleMesh& object;
-  const std::vector<Touch>& touches;
+  const std::vector<TouchInterval>& touches;
   const sweep_guard_recording::LevelTrace& levels;
   NearMisses near_misses = NearMisses::kCount;
 };

@@ -39,7 +39,7 @@ class Sessions {
  private:
   struct Object {
     ObstacleMesh mesh;
-    std::vector<Touch> touches;
+    std::vector<TouchInterval> touches;
     SessionCount count;
   };
   struct Part {

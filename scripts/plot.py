@@ -2,13 +2,14 @@
 """Draws, with matplotlib, what programs of sweep_guard have written as CSV files.
 
     plot.py FILE PICTURE    what evaluate_prediction wrote for --csv, --tradeoff-csv, --calibration-csv, --sessions-csv or
-                            --tune-csv, or latency for --histogram or --stages
+                            --tune-csv, latency for --histogram or --stages, or compare for --csv
     plot.py FOLDER NAME     the report of replay_report: timeline.png, contacts.png and touches.png in that folder, with the
                             name of the session
 
 Exit status 2: matplotlib is missing, a file cannot be read, or a picture cannot be written.
 """
 import csv
+import itertools
 import math
 import os
 import sys
@@ -18,18 +19,24 @@ COLORS = ['#0072B2', '#56B4E9', '#009E73', '#999999', '#D55E00', '#E69F00', '#CC
 PREDICTORS = {'direct': '#0072B2', 'polynomial': '#D55E00', 'constant_velocity': '#009E73', 'hold': '#777777'}
 SCALES = {'one plane': '#999999', 'the guard': '#0072B2', 'fitted to the other recordings': '#D55E00'}
 LATENCIES = {'pose to contacts': '#0072B2', 'pose to prediction': '#E69F00', 'pose to warning': '#D55E00'}
+METHODS = ['#000000'] + COLORS
+READS = {'memory read': {'color': '#808080', 'linestyle': ':', 'linewidth': 3},
+         'memory read fetched ahead': {'color': '#b0b0b0', 'linestyle': ':', 'linewidth': 3}}
 HALF_CLASS = 10 ** (0.5 / 20)  # of a distribution with twenty classes per decade
 LEVELS = {'UNKNOWN': '#8c8c8c', 'CLEAR': '#2eb05c', 'CONSIDERED': '#ffb000', 'REFLEX': '#de1a1a', 'CONTACT': '#de1a1a'}
 UNTOUCHED = -0.15  # on the scale of colors, where the touched triangles are from 0 to 1
 TOUCH_COLORS = ['#d6cdbc', '#d6cdbc', '#dadaeb', '#bcbddc', '#9e9ac8', '#807dba', '#6a51a3', '#4a1486']
 MAX_CONTACTS = 40
 MAX_WORKPIECES = 4
-KEY = 0.45 # height [inch] above the panels
+KEY = 0.45  # height [inch] above the panels
 
 
 def rows_of(path, **options):
     with open(path, newline='', encoding='utf-8', errors='replace') as file:
-        return list(csv.DictReader(file, **options))
+        rows = list(csv.DictReader(file, **options))
+    if any(None in row.values() for row in rows):
+        raise ValueError(f'{path}: a line has fewer columns than the first')
+    return rows
 
 
 def column(rows, name):
@@ -118,8 +125,9 @@ def draw_tradeoff(rows, picture):
             axes.set_xlim(left=0)
     for axes in grid[-1]:
         axes.set_xlabel('false alarms per minute')
-    probability = next(row['min_probability'] for row in rows if row['chosen'] == '1')
-    save(figure, picture, colored(by(rows, 'predictor'), PREDICTORS) + [(f'probability {probability}', dict(ring, color='black'))])
+    chosen = [row['min_probability'] for row in rows if row['chosen'] == '1']
+    rings = [(f'probability {probability}', dict(ring, color='black')) for probability in chosen[:1]]
+    save(figure, picture, colored(by(rows, 'predictor'), PREDICTORS) + rings)
 
 
 def draw_calibration(rows, picture):
@@ -197,9 +205,37 @@ def draw_latency(rows, picture):
     save(figure, picture, colored(LATENCIES, LATENCIES))
 
 
+def looks_of(methods):
+    """Returns the look of each method: each has a marker, from the tenth on they are dashed."""
+    looks = dict(READS)
+    lines = itertools.product(('-', '--', '-.'), METHODS)
+    for method, (line, color), marker in zip((name for name in methods if name not in READS), lines, itertools.cycle('os^vD<>pPX*hd8')):
+        looks[method] = {'color': color, 'linestyle': line, 'marker': marker, 'capsize': 2}
+    return looks
+
+
+def draw_times(rows, picture):
+    panels = by([row for row in rows if row['work'] in ('ordered', 'shuffled')], 'work', 'queries')
+    if not panels:
+        raise ValueError('no detectors are compared')
+    looks = looks_of(by(sorted(rows, key=lambda row: row['method'] != 'halfspace'), 'method'))
+    figure, grid = page(math.ceil(len(panels) / 2), 2, row_height=7, width=22)
+    for axes, ((work, queries), of_panel) in zip(grid.flat, panels.items()):
+        lines = {method: sorted(some, key=lambda row: float(row['triangles'])) for method, some in by(of_panel, 'method').items()}
+        # The key begins with the method that takes most time per triangle.
+        for method, some in sorted(lines.items(), key=lambda line: -float(line[1][-1]['median_us']) / float(line[1][-1]['triangles'])):
+            median, low, high = (column(some, name) for name in ('median_us', 'p10_us', 'p90_us'))
+            spread = [[b - a for a, b in zip(low, median)], [b - a for a, b in zip(median, high)]]
+            axes.errorbar(column(some, 'triangles'), median, None if method in READS else spread, label=method, **looks[method])
+        axes.set(xscale='log', yscale='log', xlabel='triangles', title=f'{work} mesh',
+                 ylabel=f'update and {queries} {"query" if queries == "1" else "queries"} [µs], median, p10 to p90')
+        axes.legend(loc='upper left', bbox_to_anchor=(1, 1), frameon=False)
+    save(figure, picture, [])
+
+
 # A column that only this kind of file has.
 KINDS = {'horizon_s': draw_errors, 'min_probability': draw_tradeoff, 'frequency': draw_calibration, 'precision_10mm': draw_sessions,
-         'at_most_per_min': draw_tuning, 'percent_of_a_processor': draw_stages}
+         'at_most_per_min': draw_tuning, 'percent_of_a_processor': draw_stages, 'extras': draw_times}
 
 
 def draw_file(path, picture):
@@ -369,6 +405,9 @@ if __name__ == '__main__':
     except ImportError as error:
         print(f'plot.py: no pictures: {error}; install python3-matplotlib', file=sys.stderr)
         sys.exit(2)
-    except (KeyError, ValueError, OSError) as error:
+    except KeyError as error:
+        print(f'plot.py: {sys.argv[1]}: {error} is unknown', file=sys.stderr)
+        sys.exit(2)
+    except (ValueError, OSError, csv.Error) as error:
         print(f'plot.py: {error}', file=sys.stderr)
         sys.exit(2)

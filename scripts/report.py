@@ -1,12 +1,10 @@
 #!/usr/bin/env python3
-"""Prints the results of `compare` as tables, checks them against the requirements, and plots them: report.py FILE.csv [--plots DIR]
+"""Prints the results of `compare` as tables, and checks them against the requirements: report.py FILE.csv. plot.py draws them.
 
-Exit status 1: one of our detectors missed a triangle, or named one beyond its stated inflation. 2: the file or a plot failed.
+Exit status 1: one of our detectors missed a triangle, or named one beyond its stated inflation. 2: the file cannot be read.
 """
 import csv
-import itertools
 import math
-import os
 import sys
 
 OURS = 'halfspace'  # the detector that the others are compared with
@@ -17,9 +15,6 @@ PEERS = {'FCL AABB': (15, 55, 15), 'Embree': (6, 24, 4.5), 'Bullet': (7, 33, 6),
          'OSMesa': (120, 1000, 2000)}  # at SMALL ours is little more than fixed costs, which differ between machines
 # Largest ratios of a frame with one sweep to a plain reading.
 READ = {HUGE: 1.5, LARGE: 4.5}
-# Colors of Okabe and Ito, which color-blind people can tell apart; their yellow is darkened.
-COLORS = ('#000000', '#E69F00', '#56B4E9', '#009E73', '#B0A000', '#0072B2', '#D55E00', '#CC79A7')
-MARKERS = 'os^vD<>pPX*hd8'
 
 
 def rows_of(path):
@@ -106,56 +101,21 @@ def print_errors(rows):
     return bool(wrong)
 
 
-def styles(rows):
-    """Returns the look of each method, the same in all pictures: dashed from the ninth on, dotted and gray the memory reads."""
-    looks = {'memory read': {'color': '#808080', 'linestyle': ':', 'linewidth': 3},
-             'memory read fetched ahead': {'color': '#b0b0b0', 'linestyle': ':', 'linewidth': 3}}
-    methods = dict.fromkeys([OURS] + [row['method'] for row in rows if row['work'] == 'ordered'])
-    lines = ((line, color) for line in ('-', '--') for color in COLORS)
-    for method, (line, color), marker in zip((m for m in methods if m not in looks), lines, itertools.cycle(MARKERS)):
-        looks[method] = {'color': color, 'linestyle': line, 'marker': marker, 'capsize': 2}
-    return looks
-
-
-def plot(rows, work, queries, folder):
-    from matplotlib.figure import Figure  # the tables go without it
-    figure = Figure(figsize=(11, 7.5), layout='constrained')
-    axes = figure.add_subplot(xscale='log', yscale='log', xlabel='triangles', title=f'{work} mesh')
-    axes.set_ylabel(f'update and {queries} {"query" if queries == 1 else "queries"} [µs], median, p10 to p90')
-    axes.grid(color='#d0d0d0')
-    looks = styles(rows)
-    lines = series(rows, work, queries)
-    # The key begins with the method that takes most time per triangle.
-    for method, results in sorted(lines.items(), key=lambda line: -line[1][max(line[1])]['median_us'] / max(line[1])):
-        found = [results[size] for size in sorted(results)]
-        spread = [[row['median_us'] - row['p10_us'] for row in found], [row['p90_us'] - row['median_us'] for row in found]]
-        axes.errorbar([row['triangles'] for row in found], [row['median_us'] for row in found],
-                      None if method.startswith('memory read') else spread, label=method, **looks.get(method, {}))
-    if lines:
-        axes.legend(loc='upper left', bbox_to_anchor=(1, 1), frameon=False)
-    figure.savefig(os.path.join(folder, f'time_{work.replace(" ", "_")}_{queries}.png'))
-
-
 def main(arguments):
-    if len(arguments) != 1 and not (len(arguments) == 3 and arguments[1] == '--plots'):
-        raise ValueError('usage: report.py FILE.csv [--plots DIR]')
+    if len(arguments) != 1:
+        raise ValueError('usage: report.py FILE.csv')
     rows = rows_of(arguments[0])
     print_table(rows, 'update', 0)
     for work in 'ordered', 'shuffled', 'no hit', 'one hit':
         for queries in 1, 20:
             print_table(rows, work, queries)
     print_requirements(rows)
-    wrong = print_errors(rows)
-    if len(arguments) == 3:
-        for work in 'ordered', 'shuffled':
-            for queries in 1, 20:
-                plot(rows, work, queries, arguments[2])
-    return 1 if wrong else 0
+    return 1 if print_errors(rows) else 0
 
 
 if __name__ == '__main__':
     try:
         sys.exit(main(sys.argv[1:]))
-    except (ValueError, TypeError, KeyError, OSError, ImportError) as error:
+    except (ValueError, TypeError, KeyError, OSError) as error:
         print(f'report.py: {error}', file=sys.stderr)
         sys.exit(2)

@@ -32,7 +32,7 @@ clean_environment() {
   unset PYTHONPATH PYTHONHOME LD_LIBRARY_PATH PKG_CONFIG_PATH CMAKE_PREFIX_PATH
   unset ROS_PACKAGE_PATH ROS_ROOT ROS_DISTRO ROS_NAMESPACE ROS_LOG_DIR
   export ROS_HOME="$build/ros"  # logs belong to the build, not to ~/.ros
-  export ROS_LANG_DISABLE=genlisp  # a process for each message, for nobody here
+  export ROS_LANG_DISABLE=genlisp  # nobody here reads messages in Lisp, and each costs a process
   export CCACHE_BASEDIR="$root" CCACHE_NOHASHDIR=1  # the copies of scripts/mutation find what is compiled here
   export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS:-pch_defines,time_macros}  # else it does without precompiled headers
 }

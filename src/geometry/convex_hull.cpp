@@ -71,7 +71,7 @@ std::vector<Facet> endsOf(const Eigen::Matrix3Xd& principal) {
   return {{static_cast<std::uint32_t>(first)}, {static_cast<std::uint32_t>(last)}};
 }
 
-Facet cornersOf(const std::vector<Facet>& facets) {
+Facet allCorners(const std::vector<Facet>& facets) {
   Facet corners;
   for (const Facet& facet : facets) corners.insert(corners.end(), facet.begin(), facet.end());
   std::sort(corners.begin(), corners.end());
@@ -85,7 +85,7 @@ class Simplices {
 
  public:
   Simplices(const Eigen::Matrix3Xd& about, const std::vector<Facet>& facets) {
-    const Facet corners = cornersOf(facets);
+    const Facet corners = allCorners(facets);
     for (const std::uint32_t corner : corners) center_ += about.col(corner) / static_cast<double>(corners.size());
     for (const Facet& facet : facets) add(about, facet);
   }
@@ -124,7 +124,7 @@ class Simplices {
 };
 
 double hullTolerance(const Eigen::Matrix3Xd& about, const std::vector<Facet>& facets) {
-  const Facet corners = cornersOf(facets);
+  const Facet corners = allCorners(facets);
   // Each weight and each sum may have one rounding error per corner.
   const double of_sums = static_cast<double>(corners.size() + 32) * kEpsilon * extentOf(about);
   const Simplices simplices(about, facets);
@@ -175,7 +175,7 @@ std::optional<ConvexHull> hullOf(const Points& points, const Eigen::Matrix3Xd& a
   if (!facets) return std::nullopt;
   const double hull_tolerance = hullTolerance(about, *facets);
   if (hull_tolerance > kMaxHullTolerance * extentOf(about)) return std::nullopt;
-  Facet corners = cornersOf(*facets);
+  Facet corners = allCorners(*facets);
   ConvexHull hull{{}, {}, hull_tolerance, dimensions == 3};
   hull.triangles = hull.solid ? renumbered(*facets, corners) : fan(corners.size());
   if (dimensions == 2) corners = sortedAround(principal, corners);

@@ -113,7 +113,7 @@ ConvexShape::Depth depthInFaces(const Eigen::Vector3d& p, const LinearFunctions&
 }
 
 // The normal of a needle has few exact digits.
-LinearFunctions facesOf(const ConvexHull& hull) {
+LinearFunctions faceFunctions(const ConvexHull& hull) {
   LinearFunctions faces;
   if (!hull.solid) return faces;
   for (const auto& [a, b, c] : hull.triangles) {
@@ -191,7 +191,7 @@ ConvexShape ConvexShape::box(const Eigen::Vector3d& half_extents) {
 ConvexShape ConvexShape::hull(const std::vector<Eigen::Vector3d>& points_T) {
   const ConvexHull hull = convexHull(points_T);
   Points body(hull.corners);
-  body.faces = facesOf(hull);
+  body.faces = faceFunctions(hull);
   return ConvexShape(std::move(body), hull.corners, hull.triangles).padded(hull.hull_tolerance);
 }
 

@@ -121,7 +121,7 @@ std::vector<ClusterGroup> groupsOf(const std::vector<Cluster>& clusters) {
   return groups;
 }
 
-simd::ClusterCorners cornersOf(const Cluster& cluster, const std::vector<Triangle>& corners) {
+simd::ClusterCorners clusterCorners(const Cluster& cluster, const std::vector<Triangle>& corners) {
   simd::ClusterCorners places{};
   for (size_t i = 0; i < cluster.count; ++i) {
     for (size_t k = 0; k < 3; ++k) {
@@ -181,7 +181,7 @@ MeshOrder orderAt(std::vector<std::uint32_t> vertex_places, const std::vector<Tr
     corners = std::move(in_order);
   }
   order.corners.reserve(order.clusters.size());
-  for (const Cluster& cluster : order.clusters) order.corners.push_back(cornersOf(cluster, corners));
+  for (const Cluster& cluster : order.clusters) order.corners.push_back(clusterCorners(cluster, corners));
   order.groups = groupsOf(order.clusters);
   return order;
 }

@@ -16,7 +16,7 @@ constexpr double kMinSine = 1e-9;  // of the angle between two edges of a triang
 
 using Corners = std::array<Eigen::Vector3d, 3>;
 
-std::optional<Eigen::Vector3d> normalOf(const Corners& p) {
+std::optional<Eigen::Vector3d> unitNormal(const Corners& p) {
   const Eigen::Vector3d one = p[1] - p[0];
   const Eigen::Vector3d other = p[2] - p[0];
   const Eigen::Vector3d normal = one.cross(other);
@@ -43,7 +43,8 @@ struct Box {
   }
 };
 
-Eigen::AlignedBox3d boxAround(const Workpiece& workpiece, const std::string& link, const Intentions& intentions) {
+Eigen::AlignedBox3d boxAroundIntended(const Workpiece& workpiece, const std::string& link,
+                                      const Intentions& intentions) {
   Eigen::AlignedBox3d box;
   for (const Intention& intention : intentions) {
     if (!intention.concerns(workpiece) || !intention.allows(link)) continue;
@@ -63,7 +64,7 @@ bool isAway(const ConvexPiece& piece, const Eigen::Isometry3d& X_MT, const Eigen
 
 bool hasLeft(const std::string& link, const Workpiece& workpiece, const PoseWithFrames& pose,
              const Eigen::Isometry3d& X_WB, const Tool& body, const Intentions& intentions) {
-  const Eigen::AlignedBox3d box_M = boxAround(workpiece, link, intentions);
+  const Eigen::AlignedBox3d box_M = boxAroundIntended(workpiece, link, intentions);
   const auto X_WM = pose.X_WM.find(workpiece.frame);
   if (box_M.isEmpty() || X_WM == pose.X_WM.end()) return true;
   const Eigen::Isometry3d X_MT = X_WM->second.inverse() * X_WB;
@@ -101,14 +102,14 @@ bool IntendedTriangles::contains(std::uint32_t triangle, const MovingTriangle& t
 // Of neighbors with nearly the same normal: no point of the tool is farther from the base than the radius.
 bool IntendedTriangles::isProvenWithin(double depth, const MovingTriangle& triangle_M) const {
   if (last_normal_.isZero(0.0) || triangle_M.start_M != triangle_M.end_M) return false;
-  const auto normal = normalOf(triangle_M.end_M);
+  const auto normal = unitNormal(triangle_M.end_M);
   return normal && surface(*normal, triangle_M) + last_reach_ + (*normal - last_normal_).norm() * radius_ <= depth;
 }
 
 std::optional<double> IntendedTriangles::depthBehind(const MovingTriangle& triangle_M) {
   double depth = -kInfinity;
   for (const Corners& corners : {triangle_M.start_M, triangle_M.end_M}) {
-    const auto normal = normalOf(corners);
+    const auto normal = unitNormal(corners);
     if (!normal) return std::nullopt;
     depth = std::max(depth, surface(*normal, triangle_M) + reachBehind(*normal));
   }

@@ -46,7 +46,7 @@ double curvatureVariance(const Jacobian& J, const std::vector<double>& variances
 }
 
 // Both rows of vectors along the axes of W instead of R.
-Jacobian turned(const Jacobian& J_R, const Eigen::Matrix3d& R_WR) {
+Jacobian turnedJacobian(const Jacobian& J_R, const Eigen::Matrix3d& R_WR) {
   Jacobian J_W(6, J_R.cols());
   J_W << R_WR * J_R.topRows<3>(), R_WR * J_R.bottomRows<3>();
   return J_W;
@@ -123,7 +123,7 @@ void MotionPredictor::predictBodies(PredictedMotion& motion) const {
     for (size_t body = 0; body < robot_->bodies.size(); ++body) {
       const size_t link = robot_->bodies[body].link;
       geometricJacobian(robot_->tree, X_RL, link, J_R);
-      const Jacobian J_W = turned(J_R, state.X_WR.linear());
+      const Jacobian J_W = turnedJacobian(J_R, state.X_WR.linear());
       PredictedPose pose{ahead, state.X_WR * poseOf(link, X_RL)};
       pose.covariance = carried(covariance, pose.X_WT.translation() - X_WT.translation());
       pose.covariance += J_W * variances.asDiagonal() * J_W.transpose();

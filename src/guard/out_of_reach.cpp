@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/floating_point.h"
 #include "sweep_guard/geometry/motion.h"
+#include "sweep_guard/geometry/separation.h"
 
 namespace sweep_guard_core {
 namespace {

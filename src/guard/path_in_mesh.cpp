@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMaxTurn = 1.5;  // [rad], of joined steps together
 
-Matrix6d turned(const Matrix6d& covariance_W, const Eigen::Matrix3d& R_MW) {
+Matrix6d turnedCovariance(const Matrix6d& covariance_W, const Eigen::Matrix3d& R_MW) {
   Matrix6d R = Matrix6d::Zero();
   R.topLeftCorner<3, 3>() = R_MW;
   R.bottomRightCorner<3, 3>() = R_MW;
@@ -83,7 +83,7 @@ void PathInMesh::follow(const Tool& tool, const Eigen::Isometry3d& X_WT, const P
   for (const PredictedPose& pose : path) {
     const Motion step_M{path_M_.back().X_MT, X_MW * pose.X_WT};
     path_M_.push_back({pose.ahead, step_M.X_MT_end, chordError(tool_radius_, step_M.angle()) + pose.deviation_bound});
-    covariances_M_.push_back(turned(pose.covariance, X_MW.linear()));
+    covariances_M_.push_back(turnedCovariance(pose.covariance, X_MW.linear()));
     deviations_.push_back(pose.deviation_bound);
   }
 }
@@ -96,7 +96,7 @@ void PathInMesh::follow(const Tool& tool, const Eigen::Isometry3d& X_WT, const P
   const auto add = [&](Duration ahead, const Matrix6d& covariance_W, const FramePath::Point& point, double deviation) {
     path_M_.push_back({ahead, point.X_WM.inverse() * *from_WT, deviation});
     const Matrix6d both_W = covariance_W + movedTo(from_WT->translation() - point.X_WM.translation(), point.covariance);
-    covariances_M_.push_back(turned(both_W, point.X_WM.linear().transpose()));
+    covariances_M_.push_back(turnedCovariance(both_W, point.X_WM.linear().transpose()));
   };
   add(Duration::zero(), Matrix6d::Zero(), frame.points[0], 0.0);
   for (size_t i = 0; i < path.size(); ++i) {

@@ -1,9 +1,9 @@
 #include "guard/separating_directions.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "common/floating_point.h"
+#include "sweep_guard/geometry/separation.h"
 
 namespace sweep_guard_core {
 namespace {
@@ -11,7 +11,7 @@ namespace {
 constexpr double kSameDirection = 0.9999;  // cosine of the angle to a direction that serves as well
 constexpr double kPoseRounding = 1e-14;    // of distances from the origin of M
 
-Eigen::Vector3d normalOf(const simd::Directions& directions, std::size_t i) {
+Eigen::Vector3d normalAt(const simd::Directions& directions, std::size_t i) {
   return {directions.normal[0][i], directions.normal[1][i], directions.normal[2][i]};
 }
 
@@ -28,12 +28,12 @@ void SeparatingDirections::begin(const ConvexShape& shape_T, const std::vector<M
   origin_M_ = sub_motions.front().X_MT_start.translation();
   const double travel = (sub_motions.back().X_MT_end.translation() - origin_M_).norm();
   rounding_of_poses_ = kDistanceRounding * shape_T.boundingRadius() + kPoseRounding * (origin_M_.norm() + travel);
-  for (std::size_t i = 0; i < directions_.count; ++i) set(i, normalOf(directions_, i));
+  for (std::size_t i = 0; i < directions_.count; ++i) set(i, normalAt(directions_, i));
 }
 
 void SeparatingDirections::add(const Eigen::Vector3d& direction_M) {
   for (std::size_t i = 0; i < directions_.count; ++i) {
-    if (normalOf(directions_, i).dot(direction_M) > kSameDirection) return;
+    if (normalAt(directions_, i).dot(direction_M) > kSameDirection) return;
   }
   const bool full = directions_.count == simd::kMaxDirections;
   const std::size_t place = full ? oldest_ : directions_.count++;
@@ -50,7 +50,7 @@ void SeparatingDirections::set(std::size_t i, const Eigen::Vector3d& direction_M
 
 // Returns a lower bound of direction * q for every point q of the piece, grown by the margin, at any time.
 double SeparatingDirections::leastAlong(const Eigen::Vector3d& direction_M) const {
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (const Motion& motion : *sub_motions_) {
     const auto at = [&](const Eigen::Isometry3d& X_MT) {
       return direction_M.dot(X_MT.translation() - origin_M_) -
@@ -79,7 +79,7 @@ void SeparatingDirections::separate() { simd::kernels().separate(batch_, directi
 
 Eigen::Vector3d SeparatingDirections::best_M(std::size_t place) const {
   if (directions_.count == 0) return Eigen::Vector3d::Zero();
-  return normalOf(directions_, static_cast<std::size_t>(gaps_.direction[place]));
+  return normalAt(directions_, static_cast<std::size_t>(gaps_.direction[place]));
 }
 
 }  // namespace sweep_guard_core

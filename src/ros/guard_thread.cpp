@@ -62,6 +62,27 @@ Duration ageOf(const Timestamps& pose, const Instant& at) { return std::max(age(
 
 }  // namespace
 
+ToolShapes::ToolShapes(const Parameters& parameters)
+    : pieces(sweep_guard_core::interpenetrationFinders(*parameters.bodies)), surface(surfaceMsg(parameters)) {}
+
+ToolPublishers::ToolPublishers(const ros::NodeHandle& private_node, const LiveParameters& parameters,
+                               const sweep_guard_core::WarningMonitor& monitor)
+    : proximity(private_node, parameters, monitor),
+      interaction(private_node, parameters, monitor),
+      bodies(private_node, parameters) {}
+
+void ToolPublishers::setTool(const Parameters& parameters, ToolShapes& shapes) {
+  proximity.setTool(*parameters.tool);
+  interaction.exchange(shapes.pieces);
+  bodies.setTool(*parameters.bodies, shapes.surface);
+}
+
+void ToolPublishers::reset() {
+  proximity.reset();
+  interaction.reset();
+  bodies.reset();
+}
+
 GuardThread::GuardThread(const ros::NodeHandle& private_node, const GuardThreadDependencies& dependencies)
     : dependencies_(dependencies),
       results_(private_node, dependencies.parameters),

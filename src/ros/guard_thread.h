@@ -1,5 +1,6 @@
 #pragma once
 
+#include <boost/shared_ptr.hpp>
 #include <functional>
 #include <future>
 #include <memory>
@@ -16,9 +17,11 @@
 #include "monitor/sweep_statistics.h"
 #include "ros/acknowledgements.h"
 #include "ros/log_throttle.h"
+#include "ros/output/bodies_publisher.h"
+#include "ros/output/interaction_publisher.h"
+#include "ros/output/proximity_publisher.h"
 #include "ros/output/result_publisher.h"
 #include "ros/output/scene_publisher.h"
-#include "ros/output/tool_publishers.h"
 #include "ros/output/touches_publisher.h"
 #include "ros/output/warning_publisher.h"
 #include "ros/parameters/parameters.h"
@@ -31,6 +34,31 @@
 #include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {
+
+/// What the publishers need of another tool.
+struct ToolShapes {
+  /// Any thread. Takes seconds for ten thousand corners.
+  explicit ToolShapes(const Parameters& parameters);
+
+  sweep_guard_core::InterpenetrationFinders pieces;
+  boost::shared_ptr<sweep_guard::ToolSurface> surface;
+};
+
+/// Publishes what is known of the tool beside warnings, at every swept pose. One thread.
+struct ToolPublishers {
+  ToolPublishers(const ros::NodeHandle& private_node, const LiveParameters& parameters,
+                 const sweep_guard_core::WarningMonitor& monitor);
+
+  /// Exchanges the tool.
+  /// @param shapes  of the same parameters; those before when it returns
+  void setTool(const Parameters& parameters, ToolShapes& shapes);
+
+  void reset();  ///< forgets all motion
+
+  ProximityPublisher proximity;
+  InteractionPublisher interaction;
+  BodiesPublisher bodies;
+};
 
 struct GuardThreadDependencies {
   LiveParameters& parameters;

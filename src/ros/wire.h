@@ -41,7 +41,7 @@ class WireStream {
     passed_ += length(1);
   }
 
-  // Each element of another than a fixed size has a length, which ends the loop where the bytes end.
+  // An element without a fixed size holds at least one length, so the loop ends where the bytes end.
   template <typename Element, typename Allocator>
   void next(const std::vector<Element, Allocator>& /*array*/) {
     const size_t smallest = ros::serialization::serializationLength(example<Element>());
@@ -79,7 +79,7 @@ class WireStream {
 
  private:
   // Reads how many elements follow.
-  // @param smallest  size of an element [bytes]. Also one that takes no byte on the wire takes memory, and counts as one
+  // @param smallest  size of an element [bytes]; 0 counts as 1, because such an element still takes memory
   size_t length(size_t smallest) {
     std::uint32_t count = 0;
     if (passed_ + sizeof count > wire_.size) {

@@ -82,6 +82,14 @@ void write(const std::filesystem::path& path, const std::string& text) {
   if (!stream) throw InvalidInput(path.string() + ": cannot be written; give output:=FOLDER");
 }
 
+/// Those of an earlier report into the same folder do not belong to the new tables.
+void removePictures(const std::filesystem::path& folder) {
+  std::error_code none;
+  for (const char* const picture : {"timeline.png", "contacts.png", "touches.png"}) {
+    std::filesystem::remove(folder / picture, none);
+  }
+}
+
 /// Has plot.py draw the CSV files of a report. It is beside this program, and says what it lacks.
 bool drawPictures(std::string folder, std::string name) {
   std::string program = std::filesystem::read_symlink("/proc/self/exe").replace_filename("plot.py");
@@ -228,6 +236,7 @@ class ReplayReport {
 
   void report() {
     const std::filesystem::path folder(output_);
+    removePictures(folder);
     if (meshInBag()) touches_.readShapes(path_, topics_);
     write(folder / "contacts.csv", contactsCsv(log_, bag_.begin));
     write(folder / "levels.csv", levelsCsv(log_, bag_.begin));

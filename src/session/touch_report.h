@@ -27,12 +27,12 @@ class TouchLog {
   const sweep_guard::Touches& touches() const { return touches_; }
 
   /// The shape of a workpiece in its frame.
-  struct Surface {
+  struct TouchedSurface {
     std::vector<Eigen::Vector3d> vertices;                ///< [m]
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< empty: not known, or without all touched triangles
   };
   /// Returns the shape that the touches of a workpiece belong to.
-  Surface surfaceOf(const sweep_guard::ObjectTouches& touches) const;
+  TouchedSurface surfaceOf(const sweep_guard::ObjectTouches& touches) const;
 
  private:
   std::map<std::string, sweep_guard::DeformableMesh::ConstPtr> meshes_;  // by id

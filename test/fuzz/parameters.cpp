@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 
+#include "common/floating_point.h"
 #include "input.h"
 #include "require.h"
 #include "ros/haptics/haptics_parameters.h"
@@ -19,11 +19,11 @@ namespace sweep_guard_fuzz {
 namespace {
 
 using sweep_guard_core::InvalidInput;
+using sweep_guard_core::kInfinity;
 using sweep_guard_ros::ParameterInfo;
 using sweep_guard_ros::Parameters;
 using sweep_guard_ros::ParameterValue;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::array<double, 16> kNumbers = {0.0, -0.0, 1.0,  -1.0,  0.5,    0.1,       1e-6,       100.0,
                                              1e9, 1e10, 1e19, 1e300, 5e-324, kInfinity, -kInfinity, NAN};
 const std::string kRobot =

@@ -25,6 +25,9 @@ FILES = {
     'tuning.csv': 'considered_on,considered_off,reflex_probability,unjustified_per_min,precision,warned_0.1,warned_0.3,warned_0.5,'
                   'warned_1.0,late,false_on_share,at_most_per_min\n0.1,0.1,0.5,2,0.5,1,1,0.9,0.8,0,0.1,2.5\n',
     'stages.csv': 'triangles,method,stage,percent_of_a_processor\n1600,tcpros,sweep,3\n1600,tcpros,predict,2\n',
+    'times.csv': 'work,method,triangles,queries,median_us,p10_us,p90_us,ratio_median,ratio_p10,misses,extras\n'
+                 'ordered,memory read,400,1,0.5,,,,,,\nordered,halfspace,400,1,5,4,7,,,0,0\nordered,scalar,400,1,9,8,12,2,1.8,0,0\n'
+                 'ordered,halfspace,1600,1,6,5,8,,,0,0\nset up,halfspace,400,0,90,80,95,,,,\n',
     'latency.tsv': 'tcpros\t1600\tpose to contacts\t1\t0.5\ntcpros\t1600\tpose to contacts\t1.1\t0.5\n'}
 CONTACTS = 'contact,begin_s,end_s,stamp_s,mesh,tool_link,triangles,depth_mm,considered_lead_s,reflex_lead_s'
 REPORT = {'levels': 'begin_s,end_s,level,text', 'collisions': 'received_s,time_to_collision_s', 'contacts': CONTACTS,
@@ -126,6 +129,22 @@ class PlotTest(unittest.TestCase):
         done = run(self.folder, 'session', PYTHONPATH=self.folder)
         self.assertEqual(done.returncode, 2)
         self.assertEqual(done.stderr, 'plot.py: no pictures: No module named matplotlib; install python3-matplotlib\n')
+
+    def test_draws_a_trade_off_without_a_chosen_threshold(self):
+        with open(self.path('tradeoff.csv'), 'w', encoding='utf-8') as file:
+            file.write(FILES['tradeoff.csv'].replace('0.5,1\n', '0.5,0\n'))
+        plot.main([self.path('tradeoff.csv'), self.path('picture.png')])
+        self.assertGreater(self.height('picture.png'), 100)
+
+    def test_what_cannot_be_read_is_status_two_and_one_line(self):
+        errors = FILES['errors.csv']
+        for text in (errors.replace('0.004', 'far'), errors[:-len('0.2,7\n')], errors.replace('direct', 200000 * 'x'),
+                     errors.replace('position_p95_m', 'p95')):
+            with open(self.path('errors.csv'), 'w', encoding='utf-8') as file:
+                file.write(text)
+            done = run(self.path('errors.csv'), self.path('errors.png'))
+            self.assertEqual(done.returncode, 2)
+            self.assertRegex(done.stderr, r'^plot\.py: [^\n]+\n$')
 
     def test_refuses_a_file_of_another_kind(self):
         for text in ('', 'a,b\n', 'a,b\n1,2\n'):

@@ -175,6 +175,29 @@ TEST_F(ReplayTest, ReportsEachContactWhenItWasWithItsLeads) {
   }
 }
 
+// Without matplotlib it draws none.
+TEST_F(ReplayTest, APictureOfAnEarlierReportIsRemoved) {
+  const auto write_begin = [](rosbag::Bag& bag) {
+    for (int i = 0; i < 100; ++i) bag.write("/tool_pose", poseAt(i / kRate).header.stamp, poseAt(i / kRate));
+  };
+  writeBag({writeMesh, write_begin});
+  fs::create_directories(folder_ / "report");
+  for (const char* const picture : {"timeline.png", "contacts.png", "touches.png"}) {
+    std::ofstream(folder_ / "report" / picture) << "earlier";
+  }
+  fs::create_directories(folder_ / "matplotlib");
+  std::ofstream(folder_ / "matplotlib/__init__.py") << "raise ImportError('No module named matplotlib')\n";
+  const char* const found = std::getenv("PYTHONPATH");
+  const std::string path = found != nullptr ? found : "";
+  setenv("PYTHONPATH", (folder_.string() + ':' + path).c_str(), 1);
+  const std::string printed = replay("");
+  setenv("PYTHONPATH", path.c_str(), 1);
+  EXPECT_TRUE(fs::exists(folder_ / "report/contacts.csv")) << printed;
+  for (const char* const picture : {"timeline.png", "contacts.png", "touches.png"}) {
+    EXPECT_FALSE(fs::exists(folder_ / "report" / picture)) << printed;
+  }
+}
+
 // The file is in millimeters.
 TEST_F(ReplayTest, TakesAWorkpieceFromAFileWhereTheBagHasNone) {
   writeBag({writePoses});

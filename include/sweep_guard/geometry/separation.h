@@ -8,6 +8,9 @@
 
 namespace sweep_guard_core {
 
+/// Bounds the rounding of the distance of two convex bodies [-], relative to their sizes and the distance between them.
+inline constexpr double kDistanceRounding = 1e-9;
+
 /// Views any object with a supportPoint() as a convex body: supportPoint() returns the point of the body [m] that lies
 /// farthest along a unit direction. The object must outlive the view.
 class SupportMapping {

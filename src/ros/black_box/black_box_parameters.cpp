@@ -4,17 +4,17 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <limits>
 
+#include "common/floating_point.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_ros {
 namespace {
 
 using sweep_guard_core::Duration;
+using sweep_guard_core::kInfinity;
 using sweep_guard_core::toSeconds;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMaxMebibytes = 16777216;
 constexpr std::size_t kMebibyte = 1U << 20U;
 

@@ -1,7 +1,6 @@
 #include "ros/haptics/haptics_parameters.h"
 
-#include <limits>
-
+#include "common/floating_point.h"
 #include "ros/motion/source_parameters.h"
 
 namespace sweep_guard_ros {
@@ -9,8 +8,7 @@ namespace {
 
 using sweep_guard_core::Duration;
 using sweep_guard_core::ForceOptions;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using sweep_guard_core::kInfinity;
 
 void readSources(ParameterReader& read, HapticsParameters& parameters) {
   const Duration silence = parameters.force.limits.warning_silence;

@@ -1,17 +1,16 @@
 #include "ros/motion/motion_parameters.h"
 
-#include <limits>
 #include <map>
 
+#include "common/floating_point.h"
 #include "ros/motion/source_parameters.h"
 
 namespace sweep_guard_ros {
 namespace {
 
 using sweep_guard_core::Duration;
+using sweep_guard_core::kInfinity;
 using sweep_guard_core::MotionGuardOptions;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void readCommand(ParameterReader& read, MotionParameters& parameters) {
   const std::map<std::string, CommandType> types = {{"twist_stamped", CommandType::kTwistStamped},

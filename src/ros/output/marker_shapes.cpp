@@ -110,19 +110,19 @@ double liftOff(const sweep_guard_core::Tool& tool) {
   return std::min(0.001, 0.05 * tool.bounds_T().sizes().minCoeff());
 }
 
-Surface::Surface(const std::string& ns, int index, const std::string& frame, sweep_guard_core::Time stamp,
-                 double line_width)
+SurfaceMarker::SurfaceMarker(const std::string& ns, int index, const std::string& frame, sweep_guard_core::Time stamp,
+                             double line_width)
     : faces_(marker(ns, 2 * index, Marker::TRIANGLE_LIST, frame, stamp)),
       edges_(marker(ns, 2 * index + 1, Marker::LINE_LIST, frame, stamp)) {
   edges_.scale.x = line_width;
 }
 
-void Surface::paint(const std_msgs::ColorRGBA& faces, const std_msgs::ColorRGBA& edges) {
+void SurfaceMarker::paint(const std_msgs::ColorRGBA& faces, const std_msgs::ColorRGBA& edges) {
   faces_.color = faces;
   edges_.color = edges;
 }
 
-void Surface::add(const sweep_guard_core::Polygon& polygon) {
+void SurfaceMarker::add(const sweep_guard_core::Polygon& polygon) {
   for (size_t i = 2; i < polygon.size(); ++i) {
     for (const size_t corner : {size_t{0}, i - 1, i}) faces_.points.push_back(point(polygon[corner]));
   }
@@ -132,7 +132,7 @@ void Surface::add(const sweep_guard_core::Polygon& polygon) {
   }
 }
 
-void Surface::add(const sweep_guard_core::SweptVolume& volume_M) {
+void SurfaceMarker::add(const sweep_guard_core::SweptVolume& volume_M) {
   const sweep_guard_core::OrientedBox& box = volume_M.box;
   for (sweep_guard_core::Polygon polygon :
        sweep_guard_core::polytopeFaces(volume_M.halfSpaces_B(), box.half_extents.norm())) {
@@ -141,8 +141,8 @@ void Surface::add(const sweep_guard_core::SweptVolume& volume_M) {
   }
 }
 
-void Surface::add(const sweep_guard_core::TriangleMesh& mesh_M, const std::vector<std::uint32_t>& triangles,
-                  double lift) {
+void SurfaceMarker::add(const sweep_guard_core::TriangleMesh& mesh_M, const std::vector<std::uint32_t>& triangles,
+                        double lift) {
   for (const std::uint32_t triangle : triangles) {
     sweep_guard_core::beat();
     const auto& [a, b, c] = mesh_M.triangles()[triangle];
@@ -155,7 +155,7 @@ void Surface::add(const sweep_guard_core::TriangleMesh& mesh_M, const std::vecto
   }
 }
 
-void Surface::moveInto(visualization_msgs::MarkerArray& array) {
+void SurfaceMarker::moveInto(visualization_msgs::MarkerArray& array) {
   if (faces_.points.empty()) return;
   array.markers.push_back(std::move(faces_));
   array.markers.push_back(std::move(edges_));

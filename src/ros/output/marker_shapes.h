@@ -48,10 +48,11 @@ void addTool(visualization_msgs::MarkerArray& array, const ToolDrawing& drawing,
 double liftOff(const sweep_guard_core::Tool& tool);
 
 /// Draws a surface and its edges as two markers with the ids 2 * index and 2 * index + 1.
-class Surface {
+class SurfaceMarker {
  public:
   /// @param line_width  [m]
-  Surface(const std::string& ns, int index, const std::string& frame, sweep_guard_core::Time stamp, double line_width);
+  SurfaceMarker(const std::string& ns, int index, const std::string& frame, sweep_guard_core::Time stamp,
+                double line_width);
 
   void paint(const std_msgs::ColorRGBA& faces, const std_msgs::ColorRGBA& edges);
 

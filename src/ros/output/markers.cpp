@@ -80,7 +80,7 @@ void addPredictedVolumes(visualization_msgs::MarkerArray& array, const Predicted
   int index = 0;
   for (const sweep_guard_core::PredictedObject& object : scene.prediction.objects) {
     if (object.workpiece->of_other_tool) continue;
-    Surface surface("predicted_volume", index++, object.workpiece->frame, scene.prediction.stamp, 0.0005);
+    SurfaceMarker surface("predicted_volume", index++, object.workpiece->frame, scene.prediction.stamp, 0.0005);
     surface.paint(levelColor(scene.level, 0.03), levelColor(scene.level, 0.12));
     for (const sweep_guard_core::SweptVolume& volume_M : object.volumes_M) surface.add(volume_M);
     surface.moveInto(array);
@@ -96,7 +96,7 @@ void addPredictedTriangles(visualization_msgs::MarkerArray& array, const Predict
     for (const auto& [level, triangles] :
          {std::pair{WarningLevel::kReflex, &object.reflex}, {WarningLevel::kConsidered, &object.considered}}) {
       const WarningLevel shown = scene.level == WarningLevel::kUnknown ? WarningLevel::kUnknown : level;
-      Surface surface("predicted_triangles", index++, object.workpiece->frame, scene.prediction.stamp, lift);
+      SurfaceMarker surface("predicted_triangles", index++, object.workpiece->frame, scene.prediction.stamp, lift);
       surface.paint(levelColor(shown, 0.8), levelColor(shown, 0.95));
       surface.add(object.workpiece->mesh_M, *triangles, lift);
       surface.moveInto(array);
@@ -167,7 +167,7 @@ void addSweptVolumes(visualization_msgs::MarkerArray& array, const sweep_guard_c
   int index = 0;
   for (const sweep_guard_core::SweptObject& object : report.objects) {
     if (object.workpiece->of_other_tool) continue;
-    Surface surface("swept_volume", index++, object.workpiece->frame, report.end, kLineWidth);
+    SurfaceMarker surface("swept_volume", index++, object.workpiece->frame, report.end, kLineWidth);
     surface.paint(levelColor(level, 0.25), levelColor(level, 0.8));
     for (const sweep_guard_core::SweptVolume& volume_M : object.result.volumes_M) surface.add(volume_M);
     surface.moveInto(array);
@@ -180,7 +180,7 @@ void addContactTriangles(visualization_msgs::MarkerArray& array, const sweep_gua
   int index = 0;
   for (const sweep_guard_core::SweptObject& object : report.objects) {
     if (object.workpiece->of_other_tool) continue;
-    Surface surface("contact_triangles", index++, object.workpiece->frame, stamp, lift);
+    SurfaceMarker surface("contact_triangles", index++, object.workpiece->frame, stamp, lift);
     surface.paint(color(1.0, 0.15, 0.1, alpha), color(1.0, 0.75, 0.7, alpha));
     surface.add(object.workpiece->mesh_M, object.result.not_ruled_out, lift);
     surface.moveInto(array);
@@ -192,7 +192,7 @@ void addAllowedTriangles(visualization_msgs::MarkerArray& array, const sweep_gua
   int index = 0;
   for (const sweep_guard_core::SweptObject& object : report.objects) {
     if (object.workpiece->of_other_tool) continue;
-    Surface surface("allowed_triangles", index++, object.workpiece->frame, report.end, lift);
+    SurfaceMarker surface("allowed_triangles", index++, object.workpiece->frame, report.end, lift);
     surface.paint(unlessUnknown(level, color(0.4, 0.55, 0.65, 0.6)), unlessUnknown(level, color(0.25, 0.35, 0.4, 0.6)));
     surface.add(object.workpiece->mesh_M, object.result.allowedTriangles(), lift);
     surface.moveInto(array);

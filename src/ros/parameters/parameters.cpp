@@ -7,6 +7,7 @@
 #include <limits>
 #include <sstream>
 
+#include "common/floating_point.h"
 #include "common/number_text.h"
 #include "ros/output/markers.h"
 #include "ros/parameters/tool_parameters.h"
@@ -16,11 +17,11 @@ namespace sweep_guard_ros {
 namespace {
 
 using sweep_guard_core::Duration;
+using sweep_guard_core::kInfinity;
 using sweep_guard_core::shortestText;
 using sweep_guard_core::toSeconds;
 using sweep_guard_core::WarningThresholds;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMinStep = 0.001;        // [s]
 constexpr double kLongest = 9e9;          // what is longer never ends: a Duration holds 292 years [s]
 constexpr size_t kBytesPerTriangle = 84;  // three indices and three vertices of a mesh that shares none

@@ -68,7 +68,7 @@ void confine() {
   limit(RLIMIT_AS, kMemory);
 }
 
-struct Surface {
+struct FileSurface {
   std::vector<Point> vertices;
   std::vector<Triangle> triangles;
   size_t faces = 0;
@@ -104,7 +104,7 @@ bool finite(const Point& point) {
 }
 
 // A fan covers a polygon, even a concave one. Points and edges become triangles without area.
-void addFace(const aiFace& face, const std::vector<std::uint32_t>& vertex, Surface& surface) {
+void addFace(const aiFace& face, const std::vector<std::uint32_t>& vertex, FileSurface& surface) {
   if (face.mNumIndices == 0) return;
   std::vector<std::uint32_t> corners;
   for (unsigned i = 0; i < face.mNumIndices; ++i) {
@@ -119,7 +119,7 @@ void addFace(const aiFace& face, const std::vector<std::uint32_t>& vertex, Surfa
   if (surface.triangles.size() > kMaxMeshTriangles) throw std::runtime_error("more than a million triangles");
 }
 
-void addMesh(const aiMesh& mesh, const aiMatrix4x4& X, Surface& surface) {
+void addMesh(const aiMesh& mesh, const aiMatrix4x4& X, FileSurface& surface) {
   std::vector<std::uint32_t> vertex;
   for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
     const Point point = transformed(X, mesh.mVertices[i]);
@@ -135,7 +135,7 @@ bool isSingular(const aiMatrix4x4& X) {
   return !(std::abs(linear.determinant()) > kMinVolume * linear.colwise().norm().prod());
 }
 
-void addNode(const aiScene& scene, const aiNode& node, const aiMatrix4x4& X_parent, int depth, Surface& surface) {
+void addNode(const aiScene& scene, const aiNode& node, const aiMatrix4x4& X_parent, int depth, FileSurface& surface) {
   if (depth > kMaxNodeDepth) throw std::runtime_error("nodes are nested too deeply");
   const aiMatrix4x4 X = X_parent * node.mTransformation;
   if (node.mNumMeshes > 0 && isSingular(X)) throw std::runtime_error("a transform is singular");
@@ -161,7 +161,7 @@ class FirstError : public Assimp::LogStream {
   std::string& text_;
 };
 
-void requireComplete(const std::string& bytes, const std::string& format, const Surface& surface) {
+void requireComplete(const std::string& bytes, const std::string& format, const FileSurface& surface) {
   if (surface.polygons == 0) throw std::runtime_error("no triangles");
   if (!surface.solid) throw std::runtime_error("all triangles are points or lines");
   const size_t expected = sweep_guard_ros::expectedFaces(bytes, format);
@@ -181,7 +181,7 @@ std::string plain(std::string text) {
   return text;
 }
 
-Surface read(std::string bytes, const std::string& format) {
+FileSurface read(std::string bytes, const std::string& format) {
   if (bytes.empty()) throw std::runtime_error("file is empty");
   if (bytes.compare(0, 19, "version https://git") == 0) {
     throw std::runtime_error("file is a git-lfs pointer, not the mesh: run git lfs pull");
@@ -197,7 +197,7 @@ Surface read(std::string bytes, const std::string& format) {
   if (scene == nullptr || scene->mRootNode == nullptr) throw std::runtime_error(plain(importer.GetErrorString()));
   if (!error.empty()) throw std::runtime_error(plain(error));
   sweep_guard_ros::requireReadable(bytes, format);
-  Surface surface;
+  FileSurface surface;
   addNode(*scene, *scene->mRootNode, aiMatrix4x4(), 0, surface);
   requireComplete(bytes, format, surface);
   return surface;
@@ -209,7 +209,7 @@ void write(const std::vector<Value>& values) {
                   static_cast<std::streamsize>(values.size() * sizeof(Value)));
 }
 
-void write(const Surface& surface) {
+void write(const FileSurface& surface) {
   write(std::vector<sweep_guard_ros::MeshWireHeader>{
       {static_cast<std::uint32_t>(surface.vertices.size()), static_cast<std::uint32_t>(surface.triangles.size())}});
   write(surface.vertices);
