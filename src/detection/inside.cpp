@@ -10,11 +10,11 @@ namespace {
 constexpr double kPi = 3.141592653589793;
 constexpr double kInside = 0.75;  // of a surface with holes: from this winding number on
 
-// An open patch and its fan are closed, so that the rest of its winding number is the solid angle of the fan.
+// An open part and its fan are closed, so that the rest of its winding number is the solid angle of the fan.
 template <typename Corner>
-double windingNumber(const View<Corner>& view, const Triangle* first, const Enclosure::OpenPatch& patch) {
-  const Triangle* const caps = first + patch.own;
-  const Triangle* const last = caps + patch.caps;
+double windingNumber(const View<Corner>& view, const Triangle* first, const Enclosure::OpenPart& part) {
+  const Triangle* const caps = first + part.own;
+  const Triangle* const last = caps + part.caps;
   double angle = 0.0;
   for (const Triangle* cap = caps; cap != last; ++cap) angle += view.solidAngle(*cap);
   return view.crossings(first, last) - angle / (4.0 * kPi);
@@ -31,8 +31,8 @@ bool inside(const TriangleMesh& mesh_M, const Eigen::Vector3d& p_M) {
   const std::vector<Triangle>& closed = enclosure.closedTriangles();
   if (view.crossings(closed.data(), closed.data() + closed.size()) != 0) return true;
   double sum = 0.0;
-  for (const Enclosure::OpenPatch& patch : enclosure.openPatches()) {
-    const double number = windingNumber(view, enclosure.openTriangles().data() + patch.first, patch);
+  for (const Enclosure::OpenPart& part : enclosure.openParts()) {
+    const double number = windingNumber(view, enclosure.openTriangles().data() + part.first, part);
     if (std::abs(number) > kInside) return true;
     sum += number;
   }

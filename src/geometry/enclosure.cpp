@@ -77,14 +77,24 @@ bool leaveOutDoubles(Surface& surface, const EdgeGroups& edges) {
   return any;
 }
 
+void sortOut(std::vector<std::uint32_t>& vertices) {
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+}
+
 std::vector<std::uint32_t> verticesAtBorders(const EdgeGroups& edges) {
   std::vector<std::uint32_t> vertices;
   edges.forEach([&](const Group& group) {
     if (group.size() == 1) vertices.insert(vertices.end(), {group.low, group.first->high});
   });
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sortOut(vertices);
   return vertices;
+}
+
+bool branches(const EdgeGroups& edges) {
+  bool found = false;
+  edges.forEach([&](const Group& group) { found = found || group.size() > 2; });
+  return found;
 }
 
 double diagonal(const Surface& surface) {
@@ -93,18 +103,26 @@ double diagonal(const Surface& surface) {
   return box.sizes().norm();
 }
 
-EdgeGroups joinEdges(Surface& surface) {
-  std::vector<std::uint32_t> first = firstAtPositions(surface.positions);
+EdgeGroups edgesWithoutDoubles(Surface& surface, const std::vector<std::uint32_t>& first) {
   replaceCorners(surface, first);
   EdgeGroups edges = surface.edges();
   if (leaveOutDoubles(surface, edges)) edges = surface.edges();
-  const std::vector<std::uint32_t> vertices = verticesAtBorders(edges);
-  if (vertices.empty() || !weldNear(surface.positions, vertices, Enclosure::kWeld * diagonal(surface), first)) {
-    return edges;
-  }
-  replaceCorners(surface, first);
-  edges = surface.edges();
-  if (leaveOutDoubles(surface, edges)) edges = surface.edges();
+  return edges;
+}
+
+// Corners that are not exactly at one place are searched for at borders first. Where some are found, or the surface branches,
+// it may be doubled: then everywhere.
+EdgeGroups joinEdges(Surface& surface) {
+  std::vector<std::uint32_t> first = firstAtPositions(surface.positions);
+  EdgeGroups edges = edgesWithoutDoubles(surface, first);
+  const double distance = Enclosure::kWeld * diagonal(surface);
+  const std::vector<std::uint32_t> at_borders = verticesAtBorders(edges);
+  const bool welded = weldNear(surface.positions, at_borders, distance, first);
+  if (welded) edges = edgesWithoutDoubles(surface, first);
+  if (!welded && !branches(edges)) return edges;
+  std::vector<std::uint32_t> all = first;
+  sortOut(all);
+  if (weldNear(surface.positions, all, distance, first)) edges = edgesWithoutDoubles(surface, first);
   return edges;
 }
 
@@ -113,9 +131,10 @@ double area(const Surface& surface, std::uint32_t triangle) {
   return 0.5 * (surface.at(b) - surface.at(a)).cross(surface.at(c) - surface.at(a)).norm();
 }
 
-// Calls a function with each patch at an edge, and how often its triangles pass the edge upwards, less downwards, and in all.
-template <typename Function>
-void forEachPatchAt(const Group& group, const Patches& patches, const Function& function) {
+// Calls a function with each patch (or part) at an edge, and how often its triangles pass the edge upwards, less downwards, and
+// in all.
+template <typename Sorted, typename Function>
+void forEachPatchAt(const Group& group, const Sorted& patches, const Function& function) {
   std::vector<std::pair<std::uint32_t, int>> uses;
   for (const HalfEdge& edge : group) uses.emplace_back(patches.of(edge.triangle()), patches.direction(edge));
   std::sort(uses.begin(), uses.end());
@@ -188,59 +207,106 @@ bool leaveOutAppendages(Surface& surface, const Patches& patches) {
   return any;
 }
 
+// Joins patches into parts where one alone has a border: two solids that share a face. Each patch is turned as most of its
+// triangles were sent.
+class Parts {
+ public:
+  Parts(const Surface& surface, const Patches& patches)
+      : patches_(patches), flipped_(patches.count()), parents_(patches.count()), parts_(patches.count()) {
+    std::vector<std::int64_t> majority(patches.count());
+    for (std::uint32_t i = 0; i < surface.triangles.size(); ++i) {
+      if (!surface.left_out[i]) majority[patches.of(i)] += patches.turned(i) ? -1 : 1;
+    }
+    std::transform(majority.begin(), majority.end(), flipped_.begin(), [](std::int64_t sum) { return sum < 0; });
+    std::iota(parents_.begin(), parents_.end(), 0U);
+    for (const Group& group : patches.irregular()) uniteBordersAt(group);
+    for (std::uint32_t i = 0; i < parents_.size(); ++i) parts_[i] = parents_[i] == i ? count_++ : parts_[root(i)];
+  }
+
+  std::uint32_t count() const { return count_; }
+  std::uint32_t of(std::uint32_t triangle) const { return parts_[patches_.of(triangle)]; }
+  bool turned(std::uint32_t triangle) const {
+    return patches_.turned(triangle) != flipped_[patches_.of(triangle)];
+  }
+  const std::vector<Group>& irregular() const { return patches_.irregular(); }
+  int direction(const HalfEdge& edge) const { return edge.upwards() != turned(edge.triangle()) ? 1 : -1; }
+
+ private:
+  std::uint32_t root(std::uint32_t patch) {
+    while (parents_[patch] != patch) patch = parents_[patch] = parents_[parents_[patch]];
+    return patch;
+  }
+
+  void uniteBordersAt(const Group& group) {
+    std::optional<std::uint32_t> first;
+    forEachPatchAt(group, patches_, [&](std::uint32_t patch, int sum, std::ptrdiff_t) {
+      if (sum == 0) return;
+      const std::uint32_t one = root(patch);
+      const std::uint32_t other = first ? root(*first) : one;
+      parents_[std::max(one, other)] = std::min(one, other);
+      first = std::min(one, other);
+    });
+  }
+
+  const Patches& patches_;
+  std::vector<bool> flipped_;
+  std::vector<std::uint32_t> parents_;  // a patch of the same part that comes before, or the patch itself
+  std::vector<std::uint32_t> parts_;
+  std::uint32_t count_ = 0;
+};
+
 struct Border {
-  std::uint32_t patch;
+  std::uint32_t part;
   std::uint32_t from;  // as its triangles pass it
   std::uint32_t to;
 };
 
 struct Borders {
-  std::vector<Border> all;  // by patch; twice where directions clash
+  std::vector<Border> all;  // by part; several times where directions clash
   size_t edges = 0;
 };
 
-Borders bordersOf(const Patches& patches) {
+Borders bordersOf(const Parts& parts) {
   Borders borders;
-  for (const Group& group : patches.irregular()) {
-    forEachPatchAt(group, patches, [&](std::uint32_t patch, int sum, std::ptrdiff_t) {
+  for (const Group& group : parts.irregular()) {
+    forEachPatchAt(group, parts, [&](std::uint32_t part, int sum, std::ptrdiff_t) {
       if (sum != 0) ++borders.edges;
       const std::uint32_t high = group.first->high;
-      for (; sum > 0; --sum) borders.all.push_back({patch, group.low, high});
-      for (; sum < 0; ++sum) borders.all.push_back({patch, high, group.low});
+      for (; sum > 0; --sum) borders.all.push_back({part, group.low, high});
+      for (; sum < 0; ++sum) borders.all.push_back({part, high, group.low});
     });
   }
   std::stable_sort(borders.all.begin(), borders.all.end(),
-                   [](const Border& a, const Border& b) { return a.patch < b.patch; });
+                   [](const Border& a, const Border& b) { return a.part < b.part; });
   return borders;
 }
 
-// What is summed up over the triangles of a patch.
+// What is summed up over the triangles of a part.
 struct Shell {
   bool closed = true;
   bool both_ways = false;    // a triangle was there in both directions
   std::uint32_t count = 0;
-  std::uint32_t turned = 0;  // triangles that the patch has turned
-  double six_volumes = 0.0;  // signed [m^3], as the patch is turned
+  std::uint32_t turned = 0;  // triangles that the part has turned
+  double six_volumes = 0.0;  // signed [m^3], as the part is turned
   Eigen::AlignedBox3d box = {};
 
-  /// Returns whether the patch is turned outwards by turning it once more.
+  /// Returns whether the part is turned outwards by turning it once more.
   bool isInsideOut() const { return six_volumes < 0.0; }
   /// Returns whether the sender's direction is known, and the same for all triangles.
   bool isSentInOneDirection() const { return !both_ways && (turned == 0 || turned == count); }
   bool isSentInsideOut() const { return (turned == 0) == isInsideOut(); }
-  bool isSentMostlyTurned() const { return 2 * std::uint64_t{turned} > count; }
 };
 
-std::vector<Shell> shellsOf(const Surface& surface, const Patches& patches, const Borders& borders) {
-  std::vector<Shell> shells(patches.count());
-  for (const Border& border : borders.all) shells[border.patch].closed = false;
+std::vector<Shell> shellsOf(const Surface& surface, const Parts& parts, const Borders& borders) {
+  std::vector<Shell> shells(parts.count());
+  for (const Border& border : borders.all) shells[border.part].closed = false;
   for (std::uint32_t i = 0; i < surface.triangles.size(); ++i) {
     if (surface.left_out[i]) continue;
-    Shell& shell = shells[patches.of(i)];
+    Shell& shell = shells[parts.of(i)];
     const auto& [a, b, c] = surface.triangles[i];
     const double six_volumes = surface.at(a).dot(surface.at(b).cross(surface.at(c)));
-    shell.six_volumes += patches.turned(i) ? -six_volumes : six_volumes;
-    shell.turned += patches.turned(i) ? 1 : 0;
+    shell.six_volumes += parts.turned(i) ? -six_volumes : six_volumes;
+    shell.turned += parts.turned(i) ? 1 : 0;
     shell.both_ways = shell.both_ways || surface.both_ways[i];
     ++shell.count;
     for (const std::uint32_t corner : surface.triangles[i]) shell.box.extend(surface.at(corner));
@@ -252,11 +318,11 @@ Triangle turnedIf(bool turn, const Triangle& triangle) {
   return turn ? Triangle{triangle[0], triangle[2], triangle[1]} : triangle;
 }
 
-// Finds closed patches that are cavities of others.
+// Finds closed parts that are cavities of others.
 class Cavities {
  public:
-  Cavities(const Surface& surface, const Patches& patches, const std::vector<Shell>& shells)
-      : surface_(surface), patches_(patches), shells_(shells), are_(shells.size()) {
+  Cavities(const Surface& surface, const Parts& parts, const std::vector<Shell>& shells)
+      : surface_(surface), parts_(parts), shells_(shells), are_(shells.size()) {
     for (std::uint32_t i = 0; i < shells.size(); ++i) {
       if (shells[i].closed) closed_.push_back(i);
     }
@@ -266,7 +332,7 @@ class Cavities {
     for (const std::uint32_t inner : closed_) are_[inner] = isCavity(inner, least);
   }
 
-  bool contain(std::uint32_t patch) const { return are_[patch]; }
+  bool contain(std::uint32_t part) const { return are_[part]; }
 
  private:
   bool areSentInBothDirections() const {
@@ -281,12 +347,12 @@ class Cavities {
   void collectTriangles() {
     triangles_.resize(shells_.size());
     for (std::uint32_t i = 0; i < surface_.triangles.size(); ++i) {
-      if (surface_.left_out[i] || !shells_[patches_.of(i)].closed) continue;
-      triangles_[patches_.of(i)].push_back(turnedIf(patches_.turned(i), surface_.triangles[i]));
+      if (surface_.left_out[i] || !shells_[parts_.of(i)].closed) continue;
+      triangles_[parts_.of(i)].push_back(turnedIf(parts_.turned(i), surface_.triangles[i]));
     }
   }
 
-  // The outermost patch around it was sent in the other direction.
+  // The outermost part around it was sent in the other direction.
   bool isCavity(std::uint32_t inner, double least) const {
     if (!shells_[inner].isSentInOneDirection()) return false;
     std::optional<std::uint32_t> outermost;
@@ -298,7 +364,7 @@ class Cavities {
            shells_[*outermost].isSentInsideOut() != shells_[inner].isSentInsideOut();
   }
 
-  // Tests corners of the inner patch: all, unless there are too many.
+  // Tests corners of the inner part: all, unless there are too many.
   bool encloses(std::uint32_t outer, std::uint32_t inner, double least) const {
     const Eigen::AlignedBox3d& box = shells_[inner].box;
     const Eigen::Vector3d gap = Eigen::Vector3d::Constant(least);
@@ -318,36 +384,35 @@ class Cavities {
   }
 
   const Surface& surface_;
-  const Patches& patches_;
+  const Parts& parts_;
   const std::vector<Shell>& shells_;
   std::vector<std::uint32_t> closed_;
-  std::vector<std::vector<Triangle>> triangles_;  // of each closed patch, in the direction of the patch
+  std::vector<std::vector<Triangle>> triangles_;  // of each closed part, in the direction of the part
   std::vector<bool> are_;
 };
 
-// Appends the open patches, each followed by the fan from a corner of its border over all others.
-// @param borders  ends with those of the last patch
-void appendOpen(const Surface& surface, const Patches& patches, const std::vector<Shell>& shells,
+// Appends the open parts, each followed by the fan from a corner of its border over all others.
+// @param borders  ends with those of the last part
+void appendOpen(const Surface& surface, const Parts& parts, const std::vector<Shell>& shells,
                 const std::vector<Border>& borders, std::vector<Triangle>& triangles,
-                std::vector<Enclosure::OpenPatch>& open) {
+                std::vector<Enclosure::OpenPart>& open) {
   std::vector<std::uint32_t> place(shells.size());
   auto border = borders.begin();
-  for (std::uint32_t patch = 0; patch < shells.size(); ++patch) {
-    if (shells[patch].closed) continue;
-    place[patch] = static_cast<std::uint32_t>(triangles.size());
-    triangles.resize(triangles.size() + shells[patch].count);
+  for (std::uint32_t part = 0; part < shells.size(); ++part) {
+    if (shells[part].closed) continue;
+    place[part] = static_cast<std::uint32_t>(triangles.size());
+    triangles.resize(triangles.size() + shells[part].count);
     const std::uint32_t apex = border->from;
-    for (; border != borders.end() && border->patch == patch; ++border) {
+    for (; border != borders.end() && border->part == part; ++border) {
       const Triangle cap = {apex, border->to, border->from};
-      if (!isDegenerate(cap)) triangles.push_back(turnedIf(shells[patch].isSentMostlyTurned(), cap));
+      if (!isDegenerate(cap)) triangles.push_back(cap);
     }
-    const auto caps = static_cast<std::uint32_t>(triangles.size()) - place[patch] - shells[patch].count;
-    open.push_back({place[patch], shells[patch].count, caps});
+    const auto caps = static_cast<std::uint32_t>(triangles.size()) - place[part] - shells[part].count;
+    open.push_back({place[part], shells[part].count, caps});
   }
   for (std::uint32_t i = 0; i < surface.triangles.size(); ++i) {
-    if (surface.left_out[i] || shells[patches.of(i)].closed) continue;
-    const bool turn = patches.turned(i) != shells[patches.of(i)].isSentMostlyTurned();
-    triangles[place[patches.of(i)]++] = turnedIf(turn, surface.triangles[i]);
+    if (surface.left_out[i] || shells[parts.of(i)].closed) continue;
+    triangles[place[parts.of(i)]++] = turnedIf(parts.turned(i), surface.triangles[i]);
   }
 }
 
@@ -361,24 +426,25 @@ Enclosure::Enclosure(const std::vector<float>& positions, const std::vector<Tria
     edges = surface.edges();
     patches = Patches(edges, surface.left_out);
   }
-  const Borders borders = bordersOf(patches);
-  const std::vector<Shell> shells = shellsOf(surface, patches, borders);
-  const Cavities cavities(surface, patches, shells);
+  const Parts parts(surface, patches);
+  const Borders borders = bordersOf(parts);
+  const std::vector<Shell> shells = shellsOf(surface, parts, borders);
+  const Cavities cavities(surface, parts, shells);
   size_t closed = 0;
   for (const Shell& shell : shells) closed += shell.closed ? shell.count : 0;
   closed_.reserve(closed);
   roles_.assign(triangles.size(), Role::kLeftOut);
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     if (surface.left_out[i]) continue;
-    const Shell& shell = shells[patches.of(i)];
-    const bool turn = patches.turned(i) != (shell.isInsideOut() != cavities.contain(patches.of(i)));
+    const Shell& shell = shells[parts.of(i)];
+    const bool turn = parts.turned(i) != (shell.isInsideOut() != cavities.contain(parts.of(i)));
     roles_[i] = !shell.closed ? Role::kOpen : turn ? Role::kReversed : Role::kOutward;
     if (shell.closed) closed_.push_back(turnedIf(turn, surface.triangles[i]));
   }
   open_edges_ = borders.edges;
   if (borders.all.size() > std::max(kMaxCaps, triangles.size() / 4)) return;
   open_.reserve(triangles.size() - closed + borders.all.size());
-  appendOpen(surface, patches, shells, borders.all, open_, patches_);
+  appendOpen(surface, parts, shells, borders.all, open_, open_parts_);
   open_.shrink_to_fit();
 }
 

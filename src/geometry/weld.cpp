@@ -39,11 +39,41 @@ std::uint64_t hashOf(const Position& p) {
   return hashOf(bits);
 }
 
-size_t slotsFor(size_t count) {
-  size_t slots = 16;
-  while (slots < count + count / 2) slots *= 2;
-  return slots;
-}
+// Holds vertices by their positions. It grows with the number of different ones: a small table stays in the processor's cache.
+class PositionTable {
+ public:
+  explicit PositionTable(const std::vector<float>& positions) : positions_(positions), slots_(1024, kNone) {}
+
+  // Returns the first vertex at the position of a vertex.
+  std::uint32_t firstAt(std::uint32_t vertex) {
+    std::uint32_t& slot = slotOf(vertex);
+    if (slot != kNone) return slot;
+    slot = vertex;
+    if (2 * ++count_ > slots_.size()) grow();
+    return vertex;
+  }
+
+ private:
+  std::uint32_t& slotOf(std::uint32_t vertex) {
+    const Position p = positionOf(positions_, vertex);
+    const size_t mask = slots_.size() - 1;
+    size_t slot = hashOf(p) & mask;
+    while (slots_[slot] != kNone && positionOf(positions_, slots_[slot]) != p) slot = (slot + 1) & mask;
+    return slots_[slot];
+  }
+
+  void grow() {
+    std::vector<std::uint32_t> before(4 * slots_.size(), kNone);
+    before.swap(slots_);
+    for (const std::uint32_t vertex : before) {
+      if (vertex != kNone) slotOf(vertex) = vertex;
+    }
+  }
+
+  const std::vector<float>& positions_;
+  std::vector<std::uint32_t> slots_;  // a power of two
+  size_t count_ = 0;
+};
 
 // Keeps the points that stand for others, by cells of a grid.
 class Places {
@@ -93,14 +123,8 @@ class Places {
 
 std::vector<std::uint32_t> firstAtPositions(const std::vector<float>& positions) {
   std::vector<std::uint32_t> first(positions.size() / 3);
-  std::vector<std::uint32_t> slots(slotsFor(first.size()), kNone);
-  for (std::uint32_t vertex = 0; vertex < first.size(); ++vertex) {
-    const Position p = positionOf(positions, vertex);
-    size_t slot = hashOf(p) & (slots.size() - 1);
-    while (slots[slot] != kNone && positionOf(positions, slots[slot]) != p) slot = (slot + 1) & (slots.size() - 1);
-    if (slots[slot] == kNone) slots[slot] = vertex;
-    first[vertex] = slots[slot];
-  }
+  PositionTable table(positions);
+  for (std::uint32_t vertex = 0; vertex < first.size(); ++vertex) first[vertex] = table.firstAt(vertex);
   return first;
 }
 

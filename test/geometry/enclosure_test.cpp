@@ -136,7 +136,7 @@ TEST(EnclosureTest, HoldsNoMoreThanSixteenBytesATriangle) {
     const TriangleMesh mesh = surface.mesh();
     const Enclosure& enclosure = mesh.enclosure();
     const size_t bytes = (enclosure.closedTriangles().capacity() + enclosure.openTriangles().capacity()) * sizeof(Triangle) +
-                         enclosure.openPatches().capacity() * sizeof(Enclosure::OpenPatch) + surface.triangles.size();
+                         enclosure.openParts().capacity() * sizeof(Enclosure::OpenPart) + surface.triangles.size();
     EXPECT_LE(bytes, 16 * surface.triangles.size());
   }
 }

@@ -189,7 +189,7 @@ TEST(NarrowPhaseTest, ReportsTimePointAndDepth) {
 
 TEST(NarrowPhaseTest, DoesNotTestAConfirmedTriangleAgain) {
   const std::vector<Motion> down = {{placedAt(0.2, 0.1, 0.3), placedAt(0.2, 0.1, -0.1)}};
-  const SweepCache confirmed{{}, false, {0, 7}};
+  const SweepCache confirmed{{}, {}, {0, 7}};
   const SweepResult already_confirmed = checkSweep(reference(), {Tool(kDrill), down, square(0.0), {}, confirmed});
   EXPECT_EQ(already_confirmed.not_ruled_out, (Indices{0}));
   EXPECT_TRUE(already_confirmed.in_contact.empty());

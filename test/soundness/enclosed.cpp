@@ -90,21 +90,28 @@ void setSurface(Solid& solid) {
   if (turned) solid.surface = solid.surface.reversed();
 }
 
-void addFlaw(Random& random, Solid& solid) {
+// Returns what it is.
+const char* addFlaw(Random& random, Solid& solid) {
   SentSurface& surface = solid.surface;
   const int flaw = random.below(4);
   if (flaw == 0 && !solid.is_octahedron && solid.cells % 2 == 0) {
     surface.add(plate(1.0, solid.cells).moved(solid.X_WU));
-  } else if (flaw == 1) {
+    return " with a plate";
+  }
+  if (flaw == 1) {
     const Triangle& at = surface.triangles[static_cast<size_t>(random.below(static_cast<int>(surface.triangles.size())))];
     const auto tip = static_cast<std::uint32_t>(surface.vertices.size());
     const Triangle fin = {at[0], at[1], tip};
     surface.vertices.push_back(surface.vertices[at[0]] + random.logUniform(0.01, 3.0) * random.direction());
     surface.triangles.push_back(fin);
-  } else if (flaw == 2) {
+    return " with a fin";
+  }
+  if (flaw == 2) {
     surface.triangles.erase(surface.triangles.begin() + random.below(static_cast<int>(surface.triangles.size())));
     solid.has_hole = true;
+    return " with a hole";
   }
+  return "";
 }
 
 void disturb(Random& random, double diagonal, SentSurface& surface) {
@@ -130,15 +137,21 @@ struct EnclosedCase {
   std::vector<Solid> solids;
   SentSurface sheet;  // beside them
   SentSurface sent;
+  std::string how;                                // it is sent
+  Affine3d deformation = Affine3d::Identity();  // after it was sent: solid angles change
+
+  double numberOf(const SentSurface& surface, const Vector3d& p) const {
+    return std::abs(static_cast<double>(windingNumber(surface.moved(deformation), deformation * p)));
+  }
 
   enum class Answer { kInside, kOutside, kNotAsked };
   Answer answer(const Vector3d& p) const {
     bool is_inside = false;
     bool in_cavity = false;
-    double open = sheet.triangles.empty() ? 0.0 : std::abs(static_cast<double>(windingNumber(sheet, p)));
+    double open = sheet.triangles.empty() ? 0.0 : numberOf(sheet, p);
     for (const Solid& solid : solids) {
       if (std::abs(solid.reach(p) - 1.0) < kOff) return Answer::kNotAsked;
-      const double number = solid.has_hole ? std::abs(static_cast<double>(windingNumber(solid.surface, p))) : 0.0;
+      const double number = solid.has_hole ? numberOf(solid.surface, p) : 0.0;
       if (solid.is_cavity && !solid.has_hole) in_cavity = in_cavity || solid.reach(p) < 1.0;
       if (solid.is_cavity && solid.has_hole && solid.reach(p) < 1.0) return Answer::kNotAsked;
       if (!solid.is_cavity) is_inside = is_inside || (solid.has_hole ? number > 0.751 : solid.reach(p) < 1.0);
@@ -163,11 +176,12 @@ EnclosedCase randomCase(Random& random) {
   made.solids = randomSolids(random, !is_turned && !is_doubled);
   for (Solid& solid : made.solids) {
     setSurface(solid);
-    if (random.chance(0.4)) addFlaw(random, solid);
+    if (random.chance(0.4)) made.how += addFlaw(random, solid);
     made.sent.add(solid.surface);
   }
   if (is_doubled) {
     SentSurface again = made.sent;
+    made.how += " doubled";
     if (random.chance(0.5)) again = again.reversed();
     if (random.chance(0.3)) again.triangles.resize(again.triangles.size() / 2 + 1);
     made.sent.add(again);
@@ -177,12 +191,19 @@ EnclosedCase randomCase(Random& random) {
     made.sent.add(made.sheet);
   }
   if (is_turned) {
+    made.how += " turned";
     for (Triangle& triangle : made.sent.triangles) {
       if (random.chance(0.5)) std::swap(triangle[0], triangle[1]);
     }
   }
-  if (random.chance(0.5)) made.sent = made.sent.separate();
-  if (random.chance(0.3)) disturb(random, diagonalOf(made.sent), made.sent);
+  if (random.chance(0.5)) {
+    made.sent = made.sent.separate();
+    made.how += " separate";
+  }
+  if (random.chance(0.3)) {
+    disturb(random, diagonalOf(made.sent), made.sent);
+    made.how += " disturbed";
+  }
   const std::vector<std::uint32_t> order = random.permutation(made.sent.triangles.size());
   std::vector<Triangle> shuffled;
   for (const std::uint32_t i : order) shuffled.push_back(made.sent.triangles[i]);
@@ -193,7 +214,7 @@ EnclosedCase randomCase(Random& random) {
 std::string described(const EnclosedCase& made, const Vector3d& p) {
   std::ostringstream text;
   text.precision(17);
-  text << "point " << p.transpose() << '\n';
+  text << "point " << p.transpose() << ", sent" << made.how << ", " << made.sent.mesh().openEdges() << " open edges\n";
   for (const Solid& solid : made.solids) {
     text << (solid.is_octahedron ? "octahedron" : "cube") << (solid.is_cavity ? " cavity" : "")
          << (solid.has_hole ? " with a hole" : "") << ", reach " << solid.reach(p) << '\n';
@@ -205,14 +226,13 @@ std::string described(const EnclosedCase& made, const Vector3d& p) {
 
 void checkEnclosed(const Context& context, std::uint64_t seed) {
   Random random(seed);
-  const EnclosedCase made = randomCase(random);
+  EnclosedCase made = randomCase(random);
   TriangleMesh mesh = made.sent.mesh();
-  Affine3d deformation = Affine3d::Identity();
   if (random.chance(0.3)) {
-    deformation = randomMap(random);
+    made.deformation = randomMap(random);
     std::vector<float> positions;
     for (const Vector3d& vertex : made.sent.vertices) {
-      const Vector3d moved = deformation * vertex;
+      const Vector3d moved = made.deformation * vertex;
       for (int i = 0; i < 3; ++i) positions.push_back(static_cast<float>(moved[i]));
     }
     mesh.deform(positions);
@@ -226,7 +246,7 @@ void checkEnclosed(const Context& context, std::uint64_t seed) {
     ++tally.cases;
     const bool should = answer == EnclosedCase::Answer::kInside;
     tally.positives += should ? 1 : 0;
-    if (inside(mesh, deformation * p) == should) continue;
+    if (inside(mesh, made.deformation * p) == should) continue;
     ++(should ? tally.misses : tally.unexplained);
     context.report.fail(context.family + " " + context.about + (should ? ": inside is missed" : ": outside is called inside"),
                         [&] { return described(made, p); });
