@@ -27,7 +27,9 @@ struct SentSurface {
     for (Eigen::Vector3d& vertex : surface.vertices) vertex = X * vertex;
     return surface;
   }
-  SentSurface movedBy(double x, double y, double z) const { return moved(Eigen::Affine3d(Eigen::Translation3d(x, y, z))); }
+  SentSurface movedBy(double x, double y, double z) const {
+    return moved(Eigen::Affine3d(Eigen::Translation3d(x, y, z)));
+  }
   SentSurface reversed() const {
     SentSurface surface = *this;
     for (Triangle& triangle : surface.triangles) std::swap(triangle[1], triangle[2]);

@@ -13,10 +13,10 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr int kMaxRounds = 16;               // of leaving out what hangs on the rest of the surface
-constexpr std::uint32_t kMaxShells = 1000;   // closed patches among which cavities are looked for
-constexpr double kMaxTests = 2e6;            // triangles looked at from the corners of one cavity
-constexpr size_t kMaxCaps = 1024;            // or a quarter of the triangles
+constexpr int kMaxRounds = 16;              // of leaving out what hangs on the rest of the surface
+constexpr std::uint32_t kMaxShells = 1000;  // closed patches among which cavities are looked for
+constexpr double kMaxTests = 2e6;           // triangles looked at from the corners of one cavity
+constexpr size_t kMaxCaps = 1024;           // or a quarter of the triangles
 
 using Group = EdgeGroups::Group;
 
@@ -225,9 +225,7 @@ class Parts {
 
   std::uint32_t count() const { return count_; }
   std::uint32_t of(std::uint32_t triangle) const { return parts_[patches_.of(triangle)]; }
-  bool turned(std::uint32_t triangle) const {
-    return patches_.turned(triangle) != flipped_[patches_.of(triangle)];
-  }
+  bool turned(std::uint32_t triangle) const { return patches_.turned(triangle) != flipped_[patches_.of(triangle)]; }
   const std::vector<Group>& irregular() const { return patches_.irregular(); }
   int direction(const HalfEdge& edge) const { return edge.upwards() != turned(edge.triangle()) ? 1 : -1; }
 
@@ -284,7 +282,7 @@ Borders bordersOf(const Parts& parts) {
 // What is summed up over the triangles of a part.
 struct Shell {
   bool closed = true;
-  bool both_ways = false;    // a triangle was there in both directions
+  bool both_ways = false;  // a triangle was there in both directions
   std::uint32_t count = 0;
   std::uint32_t turned = 0;  // triangles that the part has turned
   double six_volumes = 0.0;  // signed [m^3], as the part is turned

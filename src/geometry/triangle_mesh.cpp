@@ -62,8 +62,8 @@ TriangleMesh::TriangleMesh(const std::vector<Eigen::Vector3d>& vertices_M, std::
   }
   Enclosure enclosure = surface == SurfaceKind::kSheet ? Enclosure() : Enclosure(sent, triangles);
   MeshOrder order = orderOf(sent, triangles);
-  topology_ = std::make_shared<const Topology>(
-      Topology{std::move(triangles), surface, std::move(enclosure), std::move(order)});
+  topology_ =
+      std::make_shared<const Topology>(Topology{std::move(triangles), surface, std::move(enclosure), std::move(order)});
   exchange(sent);
 }
 

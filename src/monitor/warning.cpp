@@ -335,8 +335,9 @@ std::string meshProblems(const WarningInputs& inputs, const Instant& now, const 
 
 void appendOpenSurface(const std::string& id, size_t edges, std::string& text) {
   if (!text.empty()) text += "; ";
-  insert(text, text.size(), {"the surface of '", id, "' is open at ", std::to_string(edges),
-                             edges == 1 ? " edge" : " edges", ": the guard cannot tell whether the tool is inside"});
+  insert(text, text.size(),
+         {"the surface of '", id, "' is open at ", std::to_string(edges), edges == 1 ? " edge" : " edges",
+          ": the guard cannot tell whether the tool is inside"});
 }
 
 WarningLevel warningLevel(const PredictedContact& predicted, const Instant& now, const WarningLimits& limits) {

@@ -146,7 +146,7 @@ geometry_msgs::Pose toMsg(const Eigen::Isometry3d& pose) {
 }
 
 sweep_guard_core::TriangleMesh fromMsg(const shape_msgs::Mesh& mesh, size_t max_triangles,
-                                      sweep_guard_core::SurfaceKind surface) {
+                                       sweep_guard_core::SurfaceKind surface) {
   if (mesh.triangles.size() > max_triangles) {
     throw InvalidInput(std::to_string(mesh.triangles.size()) + " triangles exceed limits/max_triangles, " +
                        std::to_string(max_triangles));

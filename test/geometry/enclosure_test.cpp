@@ -33,9 +33,11 @@ TEST(EnclosureTest, WeldsCornersThatDifferByLittle) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> jitter(-2e-7, 2e-7);
   SentSurface surface = cubeSurface(0.5, 5).separate();
-  for (Eigen::Vector3d& vertex : surface.vertices) vertex += Eigen::Vector3d(jitter(random), jitter(random), jitter(random));
+  for (Eigen::Vector3d& vertex : surface.vertices)
+    vertex += Eigen::Vector3d(jitter(random), jitter(random), jitter(random));
   EXPECT_TRUE(surface.mesh().closed());
-  for (Eigen::Vector3d& vertex : surface.vertices) vertex += 100.0 * Eigen::Vector3d(jitter(random), jitter(random), 0.0);
+  for (Eigen::Vector3d& vertex : surface.vertices)
+    vertex += 100.0 * Eigen::Vector3d(jitter(random), jitter(random), 0.0);
   EXPECT_FALSE(surface.mesh().closed());
 }
 
@@ -89,8 +91,10 @@ TEST(EnclosureTest, OfAReversedSolidThatIsNotWithinTheOtherIsASolid) {
   }
   SentSurface in_the_box_of_a_frame = cubeSurface(0.1).reversed().movedBy(0.55, 0.55, 0.55);
   const double tetrahedron[4][3] = {{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}};
-  for (const auto& corner : tetrahedron) in_the_box_of_a_frame.vertices.emplace_back(-Eigen::Vector3d(corner[0], corner[1], corner[2]));
-  in_the_box_of_a_frame.triangles.insert(in_the_box_of_a_frame.triangles.end(), {{24, 25, 26}, {24, 27, 25}, {24, 26, 27}, {25, 27, 26}});
+  for (const auto& corner : tetrahedron)
+    in_the_box_of_a_frame.vertices.emplace_back(-Eigen::Vector3d(corner[0], corner[1], corner[2]));
+  in_the_box_of_a_frame.triangles.insert(in_the_box_of_a_frame.triangles.end(),
+                                         {{24, 25, 26}, {24, 27, 25}, {24, 26, 27}, {25, 27, 26}});
   EXPECT_NEAR(signedVolume(in_the_box_of_a_frame.mesh()), 8.0 / 3.0 + 0.008, 1e-6);
 }
 
@@ -135,8 +139,9 @@ TEST(EnclosureTest, HoldsNoMoreThanSixteenBytesATriangle) {
   for (const SentSurface& surface : {cubeSurface(0.5, 30), cubeSurface(0.5, 30).separate(), plate(1.0, 60)}) {
     const TriangleMesh mesh = surface.mesh();
     const Enclosure& enclosure = mesh.enclosure();
-    const size_t bytes = (enclosure.closedTriangles().capacity() + enclosure.openTriangles().capacity()) * sizeof(Triangle) +
-                         enclosure.openParts().capacity() * sizeof(Enclosure::OpenPart) + surface.triangles.size();
+    const size_t bytes =
+        (enclosure.closedTriangles().capacity() + enclosure.openTriangles().capacity()) * sizeof(Triangle) +
+        enclosure.openParts().capacity() * sizeof(Enclosure::OpenPart) + surface.triangles.size();
     EXPECT_LE(bytes, 16 * surface.triangles.size());
   }
 }
@@ -147,7 +152,8 @@ TEST(EnclosureTest, OfAMoebiusStripAndOfSingleTrianglesIsNothing) {
     const double angle = 2.0 * M_PI * i / 12.0;
     for (const double side : {-0.3, 0.3}) {
       const Eigen::Vector3d out(std::cos(angle), std::sin(angle), 0.0);
-      strip.vertices.emplace_back((1.0 + side * std::cos(angle / 2.0)) * out + Eigen::Vector3d(0.0, 0.0, side * std::sin(angle / 2.0)));
+      strip.vertices.emplace_back((1.0 + side * std::cos(angle / 2.0)) * out +
+                                  Eigen::Vector3d(0.0, 0.0, side * std::sin(angle / 2.0)));
     }
   }
   for (std::uint32_t i = 0; i < 12; ++i) {

@@ -71,7 +71,8 @@ std::vector<Solid> randomSolids(Random& random, bool may_have_cavity) {
     Solid solid = randomSolid(random);
     const int where = random.below(3);  // apart, overlapping, nested
     if (where == 2) {
-      solid.X_WU = solids[0].X_WU * Eigen::Translation3d(random.inBox({0.05, 0.05, 0.05})) * Eigen::Scaling(random.uniform(0.05, 0.2));
+      solid.X_WU = solids[0].X_WU * Eigen::Translation3d(random.inBox({0.05, 0.05, 0.05})) *
+                   Eigen::Scaling(random.uniform(0.05, 0.2));
       solid.is_cavity = may_have_cavity && random.chance(0.5);
     } else {
       const double distance = where == 0 ? 6.0 : random.uniform(0.1, 1.5);
@@ -99,7 +100,8 @@ const char* addFlaw(Random& random, Solid& solid) {
     return " with a plate";
   }
   if (flaw == 1) {
-    const Triangle& at = surface.triangles[static_cast<size_t>(random.below(static_cast<int>(surface.triangles.size())))];
+    const Triangle& at =
+        surface.triangles[static_cast<size_t>(random.below(static_cast<int>(surface.triangles.size())))];
     const auto tip = static_cast<std::uint32_t>(surface.vertices.size());
     const Triangle fin = {at[0], at[1], tip};
     surface.vertices.push_back(surface.vertices[at[0]] + random.logUniform(0.01, 3.0) * random.direction());
@@ -137,7 +139,7 @@ struct EnclosedCase {
   std::vector<Solid> solids;
   SentSurface sheet;  // beside them
   SentSurface sent;
-  std::string how;                                // it is sent
+  std::string how;                              // it is sent
   Affine3d deformation = Affine3d::Identity();  // after it was sent: solid angles change
 
   double numberOf(const SentSurface& surface, const Vector3d& p) const {
@@ -248,8 +250,9 @@ void checkEnclosed(const Context& context, std::uint64_t seed) {
     tally.positives += should ? 1 : 0;
     if (inside(mesh, made.deformation * p) == should) continue;
     ++(should ? tally.misses : tally.unexplained);
-    context.report.fail(context.family + " " + context.about + (should ? ": inside is missed" : ": outside is called inside"),
-                        [&] { return described(made, p); });
+    context.report.fail(
+        context.family + " " + context.about + (should ? ": inside is missed" : ": outside is called inside"),
+        [&] { return described(made, p); });
   }
 }
 
