@@ -28,7 +28,7 @@ def wave(vertices, time):
 def main():
     rospy.init_node('sheet')
     vertices, faces = grid()
-    sheet = MeshPublisher('sheet', frame='world')
+    sheet = MeshPublisher('sheet', frame='world', open=True)
     sheet.publish(vertices, faces)
     rate = rospy.Rate(60)
     while not rospy.is_shutdown():

@@ -10,6 +10,7 @@
 inline sweep_guard::DeformableMesh gridMesh(std::uint32_t cells, double side,
                                             const std::function<double(double x, double y)>& height) {
   sweep_guard::DeformableMesh mesh;
+  mesh.open = 1;
   for (std::uint32_t row = 0; row <= cells; ++row) {
     for (std::uint32_t column = 0; column <= cells; ++column) {
       geometry_msgs::Point& p = mesh.mesh.vertices.emplace_back();

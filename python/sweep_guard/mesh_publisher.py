@@ -62,15 +62,18 @@ class MeshPublisher(rospy.SubscribeListener):
     _publishing = threading.RLock()  # rospy's message to one new subscriber shares a buffer with those to all
 
     def __init__(self, mesh_id: str, frame: str, mesh_topic: str = 'mesh', vertices_topic: str = 'mesh_vertices',
-                 queue_size: int = 10):
+                 queue_size: int = 10, open: bool = False):
         """
         mesh_id: name of the workpiece
         frame: tf frame of the vertices
         queue_size: how many vertex messages of this node may wait for the network, of all its workpieces together;
             then the oldest is dropped
+        open: the surface has no inside, as cloth or sheet metal: the guard does not test whether the tool is inside, and
+            does not report INSIDE_UNTESTED
         """
         self.mesh_id = _checked_name('mesh_id', mesh_id)
         self.frame = _checked_name('frame', frame)
+        self.open = open
         self.revision = 0
         self._faces = self._vertex_count = self._newest = None
         self._mesh = rospy.Publisher(mesh_topic, DeformableMesh, subscriber_listener=self, queue_size=_MAX_WORKPIECES,
@@ -92,6 +95,7 @@ class MeshPublisher(rospy.SubscribeListener):
         with self._publishing:
             self._count_revision(faces, len(vertices))
             mesh = self._fill(_PackedMesh(), stamp)
+            mesh.open = self.open
             mesh.pack(vertices, faces)
             self._newest = mesh
             self._mesh.publish(mesh)

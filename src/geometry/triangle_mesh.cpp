@@ -31,54 +31,6 @@ void checkTriangles(const std::vector<Triangle>& triangles, size_t vertex_count)
   }
 }
 
-struct Edges {
-  bool even = true;      // each belongs to an even number of triangles
-  bool balanced = true;  // each is passed as often in either direction
-};
-
-// An edge is its higher vertex, its lower one (below 2^31: it is not the last), and a bit for the direction.
-std::vector<std::uint64_t> sortedEdges(const std::vector<Triangle>& triangles) {
-  std::vector<std::uint64_t> edges;
-  edges.reserve(3 * triangles.size());
-  for (const Triangle& triangle : triangles) {
-    for (size_t i = 0; i < 3; ++i) {
-      const std::uint32_t from = triangle[i];
-      const auto [low, high] = std::minmax(from, triangle[(i + 1) % 3]);
-      if (low != high) edges.push_back(std::uint64_t{high} << 32 | std::uint64_t{low} << 1 | (from == low ? 1 : 0));
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  return edges;
-}
-
-Edges examineEdges(const std::vector<Triangle>& triangles) {
-  const std::vector<std::uint64_t> edges = sortedEdges(triangles);
-  Edges found;
-  for (auto run = edges.begin(); run != edges.end();) {
-    const auto upwards = std::upper_bound(run, edges.end(), *run & ~std::uint64_t{1});
-    const auto next = std::upper_bound(upwards, edges.end(), *run | 1);
-    if ((next - run) % 2 != 0) found.even = false;
-    if (next - upwards != upwards - run) found.balanced = false;
-    run = next;
-  }
-  return found;
-}
-
-double signedVolume(const std::vector<float>& positions, const std::vector<Triangle>& triangles) {
-  const auto at = [&](std::uint32_t i) -> Eigen::Vector3d {
-    return Eigen::Map<const Eigen::Vector3f>(&positions[3 * size_t{i}]).cast<double>();
-  };
-  double six_volumes = 0.0;
-  for (const auto& [a, b, c] : triangles) six_volumes += at(a).dot(at(b).cross(at(c)));
-  return six_volumes / 6.0;
-}
-
-int windingOf(const Edges& edges, const std::vector<float>& positions, const std::vector<Triangle>& triangles) {
-  if (!edges.even || !edges.balanced) return 0;
-  const double volume = signedVolume(positions, triangles);
-  return static_cast<int>(volume > 0.0) - static_cast<int>(volume < 0.0);
-}
-
 [[noreturn]] void refuse(const std::vector<float>& positions) {
   const auto bad = std::find_if_not(positions.begin(), positions.end(), usable<float>);
   refuseVertex(static_cast<size_t>(bad - positions.begin()) / 3);
@@ -92,7 +44,8 @@ Eigen::Vector3d centerOf(const std::vector<Eigen::Vector3d>& points) {
 
 }  // namespace
 
-TriangleMesh::TriangleMesh(const std::vector<Eigen::Vector3d>& vertices_M, std::vector<Triangle> triangles) {
+TriangleMesh::TriangleMesh(const std::vector<Eigen::Vector3d>& vertices_M, std::vector<Triangle> triangles,
+                           SurfaceKind surface) {
   checkTriangles(triangles, vertices_M.size());
   for (size_t i = 0; i < vertices_M.size(); ++i) {
     for (const double coordinate : xyz(vertices_M[i])) {
@@ -107,10 +60,10 @@ TriangleMesh::TriangleMesh(const std::vector<Eigen::Vector3d>& vertices_M, std::
     sent.insert(sent.end(), kept.data(), kept.data() + 3);
     rounding_ = std::max(rounding_, (p - (origin_ + kept.cast<double>())).norm());
   }
-  const Edges edges = examineEdges(triangles);
-  const int winding = windingOf(edges, sent, triangles);
+  Enclosure enclosure = surface == SurfaceKind::kSheet ? Enclosure() : Enclosure(sent, triangles);
   MeshOrder order = orderOf(sent, triangles);
-  topology_ = std::make_shared<const Topology>(Topology{std::move(triangles), edges.even, winding, std::move(order)});
+  topology_ =
+      std::make_shared<const Topology>(Topology{std::move(triangles), surface, std::move(enclosure), std::move(order)});
   exchange(sent);
 }
 

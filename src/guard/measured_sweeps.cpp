@@ -53,7 +53,7 @@ bool staysOutOfReach(const SweepSetup& setup, const PoseHistory& history, size_t
 
 // Keeps the older normal of a triangle that has no newer one.
 void update(SweepCache& cache, const SweepResult& result) {
-  cache.outside = !result.contact();
+  cache.sides = result.sides;
   auto place = cache.contact_normals.begin();
   for (const TriangleContact& contact : result.in_contact) {
     place = std::next(cache.contact_normals.insert_or_assign(place, contact.triangle, contact.impact.normal_M));
@@ -64,6 +64,7 @@ void update(SweepCache& cache, const SweepResult& result) {
 void leaveOut(const SweepSetup& setup, bool has_new_poses, SweepCache& cache, SweepResult& result) {
   setup.before_sweep();
   result.fine = setup.options.fine;
+  result.sides.assign(setup.tool.pieces().size(), PieceSide::kOutside);
   if (has_new_poses) cache.contact_normals.clear();
   update(cache, result);
 }

@@ -16,18 +16,6 @@ bool linkTouches(const std::vector<TriangleContact>& in_contact, const Tool& too
                      [&](const TriangleContact& contact) { return tool.pieces()[contact.piece].link == link; });
 }
 
-// Not of the links that touch: how deep all their pieces are was measured.
-bool anyPieceInside(const Tool& tool, const AllowedPieces& allowed, const Eigen::Isometry3d& X_MT,
-                    const TriangleMesh& mesh_M, const std::vector<TriangleContact>& in_contact) {
-  if (!mesh_M.closed()) return false;
-  for (size_t i = 0; i < tool.pieces().size(); ++i) {
-    const ConvexPiece& piece = tool.pieces()[i];
-    if (allowed.contains(i) || linkTouches(in_contact, tool, piece.link)) continue;
-    if (inside(mesh_M, X_MT * piece.shape_T.moments_T().mean)) return true;
-  }
-  return false;
-}
-
 bool ascending(const TriangleContact& a, const TriangleContact& b) { return a.triangle < b.triangle; }
 
 // Keeps time and point of the first contact, and normal and depth of the last.
@@ -128,6 +116,7 @@ void SweepResult::clear() {
   in_contact.clear();
   intended.clear();
   inside = false;
+  sides.clear();
   allowed.clear();
 }
 
@@ -148,6 +137,7 @@ void unite(SweepResult& all, const SweepResult& later) {
   uniteButContacts(all, later);
   unite(all.in_contact, later.in_contact);
   unite(all.allowed.in_contact, later.allowed.in_contact);
+  all.sides = later.sides;
 }
 
 void uniteBodies(SweepResult& all, const SweepResult& other) {
@@ -168,13 +158,38 @@ SweepResult& SweepChecker::check(Detector& detector, const SweepRequest& request
   }
   result_.fine = request.options.fine;
   result_.not_ruled_out = result_.triangles;
+  touched_.assign(candidates_.size(), false);
+  for (size_t i = 0; i < candidates_.size(); ++i) touched_[i] = !candidates_[i].empty() || !allowed_[i].empty();
   if (request.options.fine) narrow(request);
   if (request.options.fine && !result_.allowed.triangles.empty()) narrowAllowed(request);
-  if (!result_.unintendedContact() && !request.cache.outside) {
-    const Eigen::Isometry3d& X_MT = request.sub_motions.back().X_MT_end;
-    result_.inside = anyPieceInside(request.tool, request.allowed, X_MT, request.mesh.mesh_M(), result_.in_contact);
-  }
+  keepSides(request);
+  if (!result_.unintendedContact()) findSides(request);
   return result_;
+}
+
+// A piece that meets no triangle stays on its side.
+void SweepChecker::keepSides(const SweepRequest& request) {
+  result_.sides = request.cache.sides;
+  result_.sides.resize(touched_.size(), PieceSide::kUnknown);
+  const bool ruled_out = result_.not_ruled_out.empty() && result_.allowed.triangles.empty();
+  for (size_t i = 0; i < touched_.size(); ++i) {
+    if (touched_[i] && !ruled_out) result_.sides[i] = PieceSide::kUnknown;
+  }
+}
+
+// Not of the links that touch: how deep all their pieces are was measured.
+void SweepChecker::findSides(const SweepRequest& request) {
+  const Eigen::Isometry3d& X_MT = request.sub_motions.back().X_MT_end;
+  for (size_t i = 0; i < result_.sides.size(); ++i) {
+    const ConvexPiece& piece = request.tool.pieces()[i];
+    if (request.allowed.contains(i) || linkTouches(result_.in_contact, request.tool, piece.link)) continue;
+    PieceSide& side = result_.sides[i];
+    if (side == PieceSide::kUnknown) {
+      const bool is_inside = inside(request.mesh.mesh_M(), X_MT * piece.shape_T.moments_T().mean);
+      side = is_inside ? PieceSide::kInside : PieceSide::kOutside;
+    }
+    result_.inside = result_.inside || side == PieceSide::kInside;
+  }
 }
 
 void SweepChecker::narrow(const SweepRequest& request) {
@@ -205,7 +220,7 @@ SweepResult checkSweep(Detector& detector, const SweepRequest& request) {
 }
 
 SweepCache sweepCache(const SweepResult& result) {
-  SweepCache cache{{}, !result.contact(), {}};
+  SweepCache cache{{}, result.sides, {}};
   for (const TriangleContact& contact : result.in_contact) {
     cache.contact_normals.emplace_hint(cache.contact_normals.end(), contact.triangle, contact.impact.normal_M);
   }

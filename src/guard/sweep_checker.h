@@ -16,7 +16,7 @@ namespace sweep_guard_core {
 // NOLINTNEXTLINE(bugprone-exception-escape): moving maps of our types does not throw
 struct SweepCache {
   ContactNormals contact_normals = {};  ///< of the triangles in contact
-  bool outside = false;                 ///< every piece of the tool is known to be outside the mesh
+  std::vector<PieceSide> sides = {};    ///< of each piece of the tool; empty: unknown
   TriangleSet already_confirmed = {};   ///< triangles that skip the narrow phase: in contact if a volume meets them
 };
 inline const SweepCache kEmptySweepCache;
@@ -32,9 +32,9 @@ struct SweepRequest {
 };
 
 /// Tests the volumes that the tool sweeps during each sub-motion. Descends the tool's tree of boxes to its convex
-/// pieces where the boxes meet triangles, and hands the candidates of the pieces to the narrow phase. If the mesh is
-/// closed, no triangle is met and the tool was not known to be outside before, tests whether a piece lies inside. Pieces
-/// that may touch the mesh are tested alike and reported apart; they are never inside.
+/// pieces where the boxes meet triangles, and hands the candidates of the pieces to the narrow phase. If no
+/// triangle is met, tests whether a piece lies inside, unless its side is known from before and it has met no triangle since.
+/// Pieces that may touch the mesh are tested alike and reported apart; they are never inside.
 /// Keeps its buffers between calls.
 class SweepChecker {
  public:
@@ -47,10 +47,13 @@ class SweepChecker {
 
   void narrow(const SweepRequest& request);
   void narrowAllowed(const SweepRequest& request);
+  void keepSides(const SweepRequest& request);
+  void findSides(const SweepRequest& request);
 
   SweepResult result_;
   std::vector<TriangleSet> candidates_;  // of each piece of the tool
   std::vector<TriangleSet> allowed_;     // the same, of the pieces that may touch the mesh
+  std::vector<bool> touched_;            // of each piece, whether its volume met a triangle
   Detection detection_;
   Culler culler_;
   std::deque<SubmeshFinder> finders_;  // by depth in the tool's tree

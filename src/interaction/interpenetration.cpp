@@ -68,7 +68,7 @@ class InterpenetrationFinder::Implementation {
 Interpenetration InterpenetrationFinder::Implementation::find(const TriangleMesh& mesh_M,
                                                               const Eigen::Isometry3d& X_MT) {
   Interpenetration found;
-  found.enclosed = mesh_M.winding() != 0;
+  found.enclosed = mesh_M.closed() && !mesh_M.enclosure().closedTriangles().empty();
   if (piece_.volume() == 0.0) return found;
   place(mesh_M, X_MT);
   prisms_.begin();
@@ -97,8 +97,10 @@ void InterpenetrationFinder::Implementation::forEachTriangleUpTo(double top, con
   const auto& all_remaining = culler_.cull(*mesh_M_, floatPlanes(*mesh_M_, volumeUpTo(top)));
   for (const RemainingTriangle& remaining : all_remaining) __builtin_prefetch(&triangles[remaining.triangle]);
   for (const RemainingTriangle& remaining : all_remaining) {
+    const Enclosure::Role role = mesh_M_->enclosure().role(remaining.triangle);
+    if (role == Enclosure::Role::kLeftOut) continue;
     auto [a, b, c] = triangles[remaining.triangle];
-    if (mesh_M_->winding() < 0) std::swap(b, c);
+    if (role == Enclosure::Role::kReversed) std::swap(b, c);
     function(Corners{X_CO_ * mesh_M_->offset(a), X_CO_ * mesh_M_->offset(b), X_CO_ * mesh_M_->offset(c)});
   }
 }

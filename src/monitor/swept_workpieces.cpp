@@ -84,6 +84,7 @@ void SweptWorkpieces::updateObjects() {
     object.id = workpiece.id;
     object.timestamps = {workpiece.stamp, workpiece.received};
     object.ages = !workpiece.of_other_tool;
+    object.open_edges = workpiece.mesh_M.openEdges();
     object.swept = holds(swept_, workpiece);
     object.dropped = dropped_.count(workpiece.id) != 0;
   }

@@ -112,6 +112,14 @@ void addOtherToolReasons(const WarningInputs& inputs, const Instant& now, const 
   }
 }
 
+void addOpen(const WarningInputs& inputs, Warning& warning) {
+  for (const WarningInputs::Object& object : inputs.objects) {
+    if (object.open_edges == 0) continue;
+    warning.reasons |= kInsideUntested;
+    if (warning.text.size() < kMaxText) appendOpenSurface(object.id, object.open_edges, warning.text);
+  }
+}
+
 void addLoadReasons(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning) {
   const auto held = [&](const auto& event) { return event && now.steady - event->found <= limits.hold_time; };
   if (held(inputs.overload)) {
@@ -301,6 +309,7 @@ void computeWarning(const WarningInputs& inputs, const Instant& now, const Warni
   addLoadReasons(inputs, now, limits, warning);
   for (const auto& [reason, message] : inputs.faults) add(warning, reason, {message});
   addThreadReasons(inputs, warning);
+  addOpen(inputs, warning);
 
   warning.level = (warning.reasons & ~kDegraded) == 0 ? WarningLevel::kClear : WarningLevel::kUnknown;
   if (inputs.pose) warning.pose_stamp = inputs.pose->stamp;
@@ -322,6 +331,13 @@ std::string meshProblems(const WarningInputs& inputs, const Instant& now, const 
   for (const auto& [reason, message] : inputs.faults) add(warning, reason, {message});
   addThreadReasons(inputs, warning);
   return warning.text;
+}
+
+void appendOpenSurface(const std::string& id, size_t edges, std::string& text) {
+  if (!text.empty()) text += "; ";
+  insert(text, text.size(),
+         {"the surface of '", id, "' is open at ", std::to_string(edges), edges == 1 ? " edge" : " edges",
+          ": the guard cannot tell whether the tool is inside"});
 }
 
 WarningLevel warningLevel(const PredictedContact& predicted, const Instant& now, const WarningLimits& limits) {

@@ -34,6 +34,7 @@ static_assert(equal(Warning::OVERLOAD, sweep_guard_core::kOverload));
 static_assert(equal(Warning::DISABLED, sweep_guard_core::kDisabled));
 static_assert(equal(Warning::MULTI_PUBLISHER, sweep_guard_core::kMultiPublisher));
 static_assert(equal(Warning::POSE_LOSS, sweep_guard_core::kPoseLoss));
+static_assert(equal(Warning::INSIDE_UNTESTED, sweep_guard_core::kInsideUntested));
 static_assert(equal(Warning::POSES_UNSWEPT, sweep_guard_core::kPosesUnswept));
 static_assert(equal(Warning::MESH_DROPPED, sweep_guard_core::kMeshDropped));
 static_assert(equal(Warning::WORKER_HUNG, sweep_guard_core::kWorkerHung));
@@ -144,7 +145,8 @@ geometry_msgs::Pose toMsg(const Eigen::Isometry3d& pose) {
   return msg;
 }
 
-sweep_guard_core::TriangleMesh fromMsg(const shape_msgs::Mesh& mesh, size_t max_triangles) {
+sweep_guard_core::TriangleMesh fromMsg(const shape_msgs::Mesh& mesh, size_t max_triangles,
+                                       sweep_guard_core::SurfaceKind surface) {
   if (mesh.triangles.size() > max_triangles) {
     throw InvalidInput(std::to_string(mesh.triangles.size()) + " triangles exceed limits/max_triangles, " +
                        std::to_string(max_triangles));
@@ -161,7 +163,7 @@ sweep_guard_core::TriangleMesh fromMsg(const shape_msgs::Mesh& mesh, size_t max_
     const auto& index = triangle.vertex_indices;
     triangles.push_back({index[0], index[1], index[2]});
   }
-  return sweep_guard_core::TriangleMesh(vertices, std::move(triangles));
+  return sweep_guard_core::TriangleMesh(vertices, std::move(triangles), surface);
 }
 
 sweep_guard::PredictedPose toMsg(const sweep_guard_core::PredictedPose& pose, sweep_guard_core::Duration age) {

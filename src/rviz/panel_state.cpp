@@ -11,6 +11,9 @@ namespace {
 using sweep_guard::Warning;
 using sweep_guard_core::toSeconds;
 
+// Reasons that leave the level as it is.
+constexpr std::uint32_t kDegraded = Warning::OVERLOAD | Warning::POSE_LOSS | Warning::INSIDE_UNTESTED;
+
 constexpr auto kFlashHalf = std::chrono::milliseconds(250);
 
 constexpr std::pair<std::uint32_t, const char*> kReasons[] = {
@@ -35,6 +38,7 @@ constexpr std::pair<std::uint32_t, const char*> kReasons[] = {
     {Warning::WORKER_HUNG, "the guard hangs"},
     {Warning::SELFTEST, "the detector failed its test"},
     {Warning::CROSSCHECK, "two detectors disagree"},
+    {Warning::INSIDE_UNTESTED, "a surface is open: inside is not tested"},
     {Warning::DISABLED, "the guard is disabled: nothing is tested"},
 };
 
@@ -146,8 +150,7 @@ Instant currentInstant() { return {toTime(ros::Time::now()), std::chrono::steady
 
 WarningLevel levelOf(const Warning& warning) {
   const bool says_clear = warning.level == Warning::CLEAR;
-  const bool is_clear =
-      warning.clear && (warning.reasons & ~std::uint32_t{Warning::OVERLOAD | Warning::POSE_LOSS}) == 0;
+  const bool is_clear = warning.clear && (warning.reasons & ~kDegraded) == 0;
   if (warning.level > Warning::CONTACT || says_clear != is_clear) return WarningLevel::kUnknown;
   return static_cast<WarningLevel>(warning.level);
 }

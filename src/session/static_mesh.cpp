@@ -21,6 +21,7 @@ sweep_guard::DeformableMesh readWorkpiece(sweep_guard_ros::ParameterReader& para
   message.header.frame_id = parameters.name("frame", "world");
   message.id = parameters.name("id", "workpiece");
   message.revision = 1;
+  message.open = parameters.flag("open", false);
   for (const Eigen::Vector3d& vertex : surface.vertices) {
     message.mesh.vertices.push_back(tf2::toMsg(Eigen::Vector3d(position + scale * vertex)));
   }

@@ -6,6 +6,7 @@
 
 #include "common/xyz.h"
 #include "scenes.h"
+#include "solids.h"
 
 namespace sweep_guard_core {
 namespace {
@@ -97,7 +98,7 @@ TEST(InsideTest, OfAnOctahedronIsBehindItsCorners) {
   EXPECT_TRUE(inside(TriangleMesh(turned, triangles), {0.5, 0.0, 0.0}));
 }
 
-// A hollow in it: the inner shell turns inside into outside again.
+// The inner shell is reversed against the outer one.
 TEST(InsideTest, OfAHollowIsOutside) {
   std::vector<Eigen::Vector3d> corners;
   std::vector<Triangle> triangles;
@@ -105,7 +106,10 @@ TEST(InsideTest, OfAHollowIsOutside) {
     const auto first = static_cast<std::uint32_t>(corners.size());
     const TriangleMesh shell = cube(half);
     for (size_t i = 0; i < 8; ++i) corners.push_back(shell.vertex(i));
-    for (const auto& [a, b, c] : shell.triangles()) triangles.push_back({first + a, first + b, first + c});
+    for (const auto& [a, b, c] : shell.triangles()) {
+      const bool is_outer = half == 1.0;
+      triangles.push_back({first + a, first + (is_outer ? b : c), first + (is_outer ? c : b)});
+    }
   }
   const TriangleMesh hollow(corners, triangles);
   ASSERT_TRUE(hollow.closed());
@@ -127,6 +131,76 @@ TEST(InsideTest, HoldsAtAnyPlaceAndScale) {
     EXPECT_TRUE(inside(mesh, X * (0.95 * scale * p)));
     EXPECT_FALSE(inside(mesh, X * (1.05 * scale * p)));
   }
+}
+
+bool insideOf(const SentSurface& surface, double x, double y, double z) { return inside(surface.mesh(), {x, y, z}); }
+
+TEST(InsideTest, OfSeparateOrDoubledTrianglesIsThatOfTheSolid) {
+  const SentSurface cube = cubeSurface(0.2, 2);
+  SentSurface doubled = cube;
+  doubled.add(cube.reversed());
+  SentSurface three_times = cube.separate();
+  three_times.add(cube).add(cube);
+  for (const SentSurface& surface : {cube.separate(), cube.reversed().separate(), doubled, three_times}) {
+    EXPECT_TRUE(insideOf(surface, 0.0, 0.0, 0.0));
+    EXPECT_TRUE(insideOf(surface, 0.1, -0.15, 0.19));
+    EXPECT_FALSE(insideOf(surface, 0.1, -0.15, 0.21));
+  }
+}
+
+TEST(InsideTest, OfSolidsThatOverlapOrLieInEachOtherIsAllOfThem) {
+  SentSurface overlapping = cubeSurface(0.5);
+  overlapping.add(cubeSurface(0.5).movedBy(0.5, 0.0, 0.0));
+  SentSurface nested = cubeSurface(0.5);
+  nested.add(cubeSurface(0.2));
+  SentSurface reversed = cubeSurface(0.5);
+  reversed.add(cubeSurface(0.5).reversed().movedBy(0.5, 0.0, 0.0));
+  for (const SentSurface& surface : {overlapping, nested, reversed}) {
+    EXPECT_TRUE(insideOf(surface, 0.1, 0.0, 0.0));
+    EXPECT_TRUE(insideOf(surface, 0.4, 0.4, 0.4));
+    EXPECT_FALSE(insideOf(surface, -0.6, 0.0, 0.0));
+  }
+}
+
+// One flaw somewhere leaves the rest of the mesh tested.
+TEST(InsideTest, IsTestedBesideAFlaw) {
+  SentSurface beside_a_sheet = cubeSurface(0.2);
+  beside_a_sheet.add(plate(0.3).movedBy(0.0, 0.0, 2.0));
+  SentSurface plate_inside = cubeSurface(0.2, 2);
+  plate_inside.add(plate(0.2, 2));
+  SentSurface plate_apart = cubeSurface(0.2);
+  plate_apart.add(plate(0.1));
+  for (const SentSurface& surface : {beside_a_sheet, plate_inside, plate_apart, cubeSurface(0.2, 8).without(70)}) {
+    EXPECT_TRUE(insideOf(surface, 0.0, 0.05, 0.05));
+    EXPECT_TRUE(insideOf(surface, -0.1, 0.1, -0.1));
+    EXPECT_FALSE(insideOf(surface, 0.0, 0.0, 0.25));
+    EXPECT_FALSE(insideOf(surface, 0.0, 0.0, 1.99));
+  }
+}
+
+// Its upper face has other corners than the faces beside it.
+TEST(InsideTest, OfASurfaceWithTJunctionsIsThatOfTheSolid) {
+  SentSurface surface = cubeSurface(0.2, 1);
+  surface.triangles.resize(10);
+  surface.add(plate(0.2, 3).movedBy(0.0, 0.0, 0.2));
+  EXPECT_GT(surface.mesh().openEdges(), 0U);
+  for (const double z : {-0.19, -0.1, 0.0, 0.1, 0.199}) EXPECT_TRUE(insideOf(surface, 0.05, -0.1, z)) << z;
+  for (const double z : {-0.21, 0.201, 0.3, 3.0}) EXPECT_FALSE(insideOf(surface, 0.05, -0.1, z)) << z;
+}
+
+// Right in the plane of the fan that closes the hole, too.
+TEST(InsideTest, OfACubeWithoutALidIsUntestedInTheMouthAndOutsideAboveIt) {
+  SentSurface open = cubeSurface(0.2);
+  open.triangles.resize(10);
+  EXPECT_TRUE(insideOf(open, 0.0, 0.0, -0.15));
+  for (const double z : {0.2, 0.25, 0.3}) {
+    for (const double x : {-0.1, 0.0, 0.05}) EXPECT_FALSE(insideOf(open, x, 0.02, z)) << x << ' ' << z;
+  }
+}
+
+TEST(InsideTest, OfASheetOrOfASurfaceThatIsSaidToBeOpenIsNothing) {
+  for (const double z : {-1e-3, 1e-3}) EXPECT_FALSE(insideOf(plate(1.0, 10), 0.01, 0.02, z));
+  EXPECT_FALSE(inside(cubeSurface(0.2).mesh(SurfaceKind::kSheet), {0.0, 0.0, 0.0}));
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ TEST(LinkSurfaceTest, IsClosed) {
     const LinkSurface surface = linkSurfaces(Tool(shape))[0];
     const TriangleMesh mesh(surface.vertices_B, surface.triangles);
     EXPECT_TRUE(mesh.closed());
-    EXPECT_EQ(mesh.winding(), 1);
+    for (size_t i = 0; i < mesh.triangles().size(); ++i) EXPECT_EQ(mesh.enclosure().role(i), Enclosure::Role::kOutward);
   }
 }
 

@@ -189,7 +189,7 @@ TEST(NarrowPhaseTest, ReportsTimePointAndDepth) {
 
 TEST(NarrowPhaseTest, DoesNotTestAConfirmedTriangleAgain) {
   const std::vector<Motion> down = {{placedAt(0.2, 0.1, 0.3), placedAt(0.2, 0.1, -0.1)}};
-  const SweepCache confirmed{{}, false, {0, 7}};
+  const SweepCache confirmed{{}, {}, {0, 7}};
   const SweepResult already_confirmed = checkSweep(reference(), {Tool(kDrill), down, square(0.0), {}, confirmed});
   EXPECT_EQ(already_confirmed.not_ruled_out, (Indices{0}));
   EXPECT_TRUE(already_confirmed.in_contact.empty());
@@ -263,32 +263,41 @@ TEST(SeveralPiecesTest, MeetWhatEachOfThemMeetsAndNotWhatIsBetweenThem) {
   }
 }
 
-TEST(InsideOfAWorkpieceTest, IsContactOfAClosedMeshAlone) {
+TEST(InsideOfAWorkpieceTest, IsContactIfTheMeshIsClosedOrLacksLittle) {
   const TriangleMesh closed = wavyHull(24, 40, 0.0);
   std::vector<Eigen::Vector3d> corners;
   for (size_t i = 0; i < closed.vertexCount(); ++i) corners.push_back(closed.vertex(i));
-  std::vector<Triangle> but_one = closed.triangles();
-  but_one.pop_back();
-  const TriangleMesh open(corners, but_one);
+  std::vector<Triangle> some = closed.triangles();
+  some.pop_back();
+  const TriangleMesh with_a_hole(corners, some);
+  some.resize(some.size() / 2);
+  const TriangleMesh open(corners, some);
   const ConvexShape bead = ConvexShape::cylinder(0.005, 0.01);
   const SweepResult within = testMotion(reference(), bead, Motion{}, closed, {});
   EXPECT_TRUE(within.triangles.empty());
   EXPECT_TRUE(within.inside && within.contact());
   EXPECT_EQ(firstTimeOfImpact(within), 0.0);
+  EXPECT_TRUE(testMotion(reference(), bead, Motion{}, with_a_hole, {}).inside);
   EXPECT_FALSE(testMotion(reference(), bead, Motion{}, open, {}).contact());
+  EXPECT_FALSE(
+      testMotion(reference(), bead, Motion{}, TriangleMesh(corners, closed.triangles(), SurfaceKind::kSheet), {})
+          .contact());
   EXPECT_FALSE(testMotion(reference(), bead, {placedAt(1, 0, 0), placedAt(1, 0, 0)}, closed, {}).contact());
 }
 
-TEST(InsideOfAWorkpieceTest, IsAskedAgainOnlyAfterContact) {
+TEST(InsideOfAWorkpieceTest, StaysSoUntilATriangleIsTouched) {
   const TriangleMesh closed = wavyHull(24, 40, 0.0);
   const Tool bead = Tool::cylinder(0.005, 0.01);
   const SweepResult outside = checkSweep(reference(), {bead, {{placedAt(1, 0, 0), placedAt(1, 0, 0)}}, closed, {}});
-  EXPECT_TRUE(sweepCache(outside).outside);
+  EXPECT_EQ(outside.sides, std::vector{PieceSide::kOutside});
   const SweepResult in =
       checkSweep(reference(), {bead, {{placedAt(1, 0, 0), placedAt(0, 0, 0)}}, closed, {}, sweepCache(outside)});
   EXPECT_FALSE(in.not_ruled_out.empty());
-  EXPECT_FALSE(sweepCache(in).outside);
-  EXPECT_TRUE(checkSweep(reference(), {bead, {Motion{}}, closed, {}, sweepCache(in)}).inside);
+  EXPECT_EQ(in.sides, std::vector{PieceSide::kUnknown});
+  const SweepResult within = checkSweep(reference(), {bead, {Motion{}}, closed, {}, sweepCache(in)});
+  EXPECT_TRUE(within.inside);
+  const TriangleMesh another = TriangleMesh({{5, 0, 0}, {5, 1, 0}, {5, 0, 1}}, {{0, 1, 2}});
+  EXPECT_TRUE(checkSweep(reference(), {bead, {Motion{}}, another, {}, sweepCache(within)}).inside);
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ class Volumes {
     file_ = file;
     const auto read = sweep_guard_ros::readMesh(dataPath(file));
     mesh_.emplace(read.vertices, read.triangles);
-    ASSERT_NE(mesh_->winding(), 0);
+    ASSERT_TRUE(mesh_->closed());
     ASSERT_EQ(hashOf(*mesh_), hash) << file << " is another mesh by now: run write_volumes";
   }
 

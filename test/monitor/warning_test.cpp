@@ -395,7 +395,7 @@ TEST(WarningTest, NamesEveryReasonInItsText) {
 }
 
 TEST(WarningTest, EveryFaultMakesItUnknownUnderItsOwnBit) {
-  for (std::uint32_t bit = 1; bit <= kCrosscheck; bit <<= 1) {
+  for (std::uint32_t bit = 1; bit <= kInsideUntested; bit <<= 1) {
     if ((bit & kDegraded) != 0) continue;
     WarningInputs inputs = allGood();
     inputs.faults[static_cast<Reason>(bit)] = "message";
@@ -460,6 +460,19 @@ TEST(WarningTest, WhatDegradesLeavesTheLevelAndEndsAfterTheHoldTime) {
   EXPECT_TRUE(has(warningNow(inputs).text, "3 tool poses were lost"));
   inputs.pose_loss->found -= 1ns;
   EXPECT_EQ(warningNow(inputs).reasons, 0U);
+}
+
+TEST(WarningTest, AnOpenSurfaceIsSaidAndKeepsTheLevel) {
+  WarningInputs inputs = allGood();
+  inputs.objects[0].open_edges = 3;
+  EXPECT_EQ(warningNow(inputs).level, WarningLevel::kClear);
+  EXPECT_EQ(warningNow(inputs).reasons, kInsideUntested);
+  EXPECT_EQ(warningNow(inputs).text,
+            "CLEAR: the surface of 'liver' is open at 3 edges: the guard cannot tell whether the tool is inside");
+  inputs.objects[0].swept = false;
+  EXPECT_EQ(warningNow(inputs).reasons, kNotSwept | kInsideUntested);
+  inputs.objects[0].open_edges = 0;
+  EXPECT_EQ(warningNow(inputs).reasons, kNotSwept);
 }
 
 // Numbers on the wire, in Warning.msg.

@@ -8,6 +8,7 @@ namespace sweep_guard_ros {
 inline sweep_guard::DeformableMesh cubeAt(const std::string& id, const Eigen::Vector3d& center, ros::Time stamp,
                                           double half_side) {
   sweep_guard::DeformableMesh cube = squareAt(id, center, stamp);
+  cube.open = 0;
   cube.mesh.vertices.clear();
   cube.mesh.triangles.clear();
   for (int corner = 0; corner < 8; ++corner) {
@@ -20,6 +21,19 @@ inline sweep_guard::DeformableMesh cubeAt(const std::string& id, const Eigen::Ve
                                              {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 5, 7}, {1, 7, 3}};
   for (const auto& [a, b, c] : kTriangles) cube.mesh.triangles.emplace_back().vertex_indices = {a, b, c};
   return cube;
+}
+
+/// Returns the same with three vertices for each triangle.
+inline sweep_guard::DeformableMesh separated(sweep_guard::DeformableMesh mesh) {
+  std::vector<geometry_msgs::Point> vertices;
+  for (shape_msgs::MeshTriangle& triangle : mesh.mesh.triangles) {
+    for (std::uint32_t& corner : triangle.vertex_indices) {
+      vertices.push_back(mesh.mesh.vertices[corner]);
+      corner = static_cast<std::uint32_t>(vertices.size()) - 1;
+    }
+  }
+  mesh.mesh.vertices = vertices;
+  return mesh;
 }
 
 /// Returns the vertices of a mesh, each moved.

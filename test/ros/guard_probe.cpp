@@ -358,6 +358,7 @@ sweep_guard::CheckSweep::Request requestAlong(const std::vector<Eigen::Vector3d>
 sweep_guard::DeformableMesh squareAt(const std::string& id, const Eigen::Vector3d& center, ros::Time stamp,
                                      double half_side) {
   auto mesh = firstRevision<sweep_guard::DeformableMesh>(id, stamp);
+  mesh.open = 1;
   for (const Eigen::Vector3d& corner : squareCorners(center, half_side)) {
     mesh.mesh.vertices.push_back(tf2::toMsg(corner));
   }

@@ -9,6 +9,7 @@
 #include <limits>
 #include <set>
 
+#include "cube.h"
 #include "node_fixture.h"
 #include "refusal.h"
 
@@ -119,6 +120,38 @@ TEST_F(NodeTest, AToolInsideAClosedMeshIsContact) {
   EXPECT_TRUE(contacts.objects[0].triangles.empty());
   const Warning warning = probe().awaitWarning([](const Warning& next) { return next.contact; });
   EXPECT_TRUE(has(warning.text, "inside 'box'"));
+}
+
+// As an STL or a marker of the type TRIANGLE_LIST gives it.
+TEST_F(NodeTest, AToolInsideASolidOfSeparateTrianglesIsContact) {
+  probe().place(separated(cubeAt("box", {0.0, 0.0, 0.0}, probe().time(), 1.0)));
+  placed_.insert("box");
+  const Contacts contacts = moveTo({0.0, 0.0, 0.1});
+  ASSERT_EQ(contacts.objects.size(), 1U);
+  EXPECT_TRUE(contacts.objects[0].inside && contacts.objects[0].inside_tested);
+  EXPECT_TRUE(has(probe().awaitWarning([](const Warning& next) { return next.contact; }).text, "inside 'box'"));
+}
+
+TEST_F(NodeTest, AnOpenSolidIsSaidToBeUntestedUntilItIsClosedOrSaidToBeOpen) {
+  const auto solid = cubeAt("box", {0.0, 0.0, -2.0}, probe().time(), 1.0);
+  auto open = solid;
+  open.mesh.triangles.pop_back();
+  placed_.insert("box");
+  std::uint32_t revision = solid.revision;
+  const auto reasonsWith = [&](sweep_guard::DeformableMesh next) {
+    next.revision = ++revision;
+    next.header.stamp = probe().time();
+    probe().place(next);
+    restAt({0.0, 0.0, 0.5});
+    return probe().warnings().back().reasons;
+  };
+  EXPECT_EQ(reasonsWith(open), std::uint32_t{Warning::INSIDE_UNTESTED});
+  const Warning untested = probe().warnings().back();
+  EXPECT_TRUE(has(untested.text, "the surface of 'box' is open at 3 edges: the guard cannot tell whether"));
+  EXPECT_FALSE(untested.reflex);
+  EXPECT_EQ(reasonsWith(solid), 0U);
+  open.open = 1;
+  EXPECT_EQ(reasonsWith(open), 0U);
 }
 
 TEST_F(NodeTest, ContactIsWarnedOfThenHeldThenClear) {

@@ -35,6 +35,7 @@ sweep_guard::DeformableMesh plate() {
   mesh.header.stamp = ros::Time::now();
   mesh.header.frame_id = "world";
   mesh.id = "liver";
+  mesh.open = 1;
   mesh.revision = 1;
   mesh.mesh.vertices.resize(4);
   for (int i = 0; i < 4; ++i) {

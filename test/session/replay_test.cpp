@@ -52,6 +52,7 @@ sweep_guard::DeformableMesh plate() {
   mesh.header.stamp = ros::Time(kBegin);
   mesh.header.frame_id = "world";
   mesh.id = "plate";
+  mesh.open = 1;
   mesh.revision = 1;
   for (const auto& [x, y] :
        std::vector<std::pair<double, double>>{{-0.1, -0.1}, {0.1, -0.1}, {0.1, 0.1}, {-0.1, 0.1}}) {

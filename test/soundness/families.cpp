@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "soundness/enclosed.h"
 #include "soundness/joint_positives.h"
 #include "soundness/metamorphic.h"
 #include "soundness/pairs.h"
@@ -54,6 +55,10 @@ void runWholeSweep(const Context& context, std::uint64_t seed) { checkWholeSweep
 
 void replayWholeSweep(const Context& context, const AnyCase& any) { checkWholeSweep(context, any.sweep.value()); }
 
+void refuseReplay(const Context& context, const AnyCase& /*any*/) {
+  throw InvalidInput("soundness case: family '" + context.family + "' is made from its seed: run it with that --seed");
+}
+
 // Gives each case a sequence of its own (splitmix64, Steele et al. 2014).
 std::uint64_t mixed(std::uint64_t seed, std::uint64_t index) {
   std::uint64_t z = seed * 0x9e3779b97f4a7c15U + index * 0xbf58476d1ce4e5b9U + 0x94d049bb133111ebU;
@@ -87,6 +92,7 @@ const std::vector<Family>& families() {
       {"impacts", "time of impact on the same triangles: none is missed or late", runImpacts, replayImpacts},
       {"metamorphic", "triangles that must still be named in another description of the scene", runRelations,
        replayRelations},
+      {"inside", "points inside and outside of solids, however their surfaces are sent", checkEnclosed, refuseReplay},
       {"sweeps", "a tool about a workpiece of 1 600 triangles, against densely sampled exact poses", runWholeSweep,
        replayWholeSweep},
   };

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "sweep_guard/geometry/enclosure.h"
 #include "sweep_guard/geometry/mesh_order.h"
 #include "sweep_guard/geometry/vertex_blocks.h"
 
@@ -13,6 +14,9 @@ namespace sweep_guard_core {
 /// Largest absolute coordinate accepted [m]. Beyond it double precision is too coarse for a contact.
 constexpr double kMaxCoordinate = 1e7;
 
+/// What the sender says of a surface.
+enum class SurfaceKind { kMayEnclose, kSheet };
+
 /// A checked triangle mesh at one time, in its frame M. Stores vertices as float32 offsets from an origin; rounding()
 /// bounds the error. Keeps degenerate triangles and unused vertices, because they may be a wire or a tip. All indices
 /// are those given to the constructor (the sender's), except in places(), order() and blocks().
@@ -20,9 +24,11 @@ class TriangleMesh {
  public:
   /// @param vertices_M  positions [m], each coordinate finite and within +-kMaxCoordinate
   /// @param triangles   at least one, each index below vertices_M.size()
+  /// @param surface     kSheet: the sender says that it encloses nothing
   /// @throws InvalidInput if there is no triangle, or naming the first invalid triangle or else vertex, or if the
   ///     environment variable SWEEP_GUARD_SIMD is wrong (simd::kernels())
-  TriangleMesh(const std::vector<Eigen::Vector3d>& vertices_M, std::vector<Triangle> triangles);
+  TriangleMesh(const std::vector<Eigen::Vector3d>& vertices_M, std::vector<Triangle> triangles,
+               SurfaceKind surface = SurfaceKind::kMayEnclose);
 
   /// Replaces the positions of all vertices in one pass; rebuilds no structure. Exchanges buffers and allocates
   /// nothing, except for a spare buffer at the first call on a mesh with renumbered vertices.
@@ -36,14 +42,13 @@ class TriangleMesh {
   const std::vector<Triangle>& triangles() const { return topology_->triangles; }
   /// Returns triangles(), which stay the same object for all deformations and copies.
   std::shared_ptr<const std::vector<Triangle>> sharedTriangles() const { return {topology_, &topology_->triangles}; }
-  /// Returns whether each edge belongs to an even number of triangles. The surface then has an inside, which may be
-  /// empty. Vertices at the same place count as different: a mesh of separate triangles is not closed. An edge from a
-  /// vertex to itself does not count.
-  bool closed() const { return topology_->closed; }
-  /// Returns on which side of its triangles the outside of a closed mesh is: 1: their corners are counter-clockwise seen
-  /// from outside, -1: clockwise. 0 if the mesh is not closed(), if triangles at an edge wind differently, or without a
-  /// volume. As of the positions given to the constructor.
-  int winding() const { return topology_->winding; }
+  /// Returns what the surface encloses: of kSheet nothing.
+  const Enclosure& enclosure() const { return topology_->enclosure; }
+  /// Returns whether it is known of every point off the surface whether it lies inside: the surface has no border.
+  bool closed() const { return topology_->surface != SurfaceKind::kSheet && enclosure().openEdges() == 0; }
+  /// Returns the number of edges at its borders; 0 of kSheet, which has no inside.
+  size_t openEdges() const { return enclosure().openEdges(); }
+  SurfaceKind surfaceKind() const { return topology_->surface; }
   size_t vertexCount() const { return offsets_.size() / 3; }
 
   /// Returns the position of vertex `i` in M [m]; i < vertexCount(), not checked.
@@ -76,8 +81,8 @@ class TriangleMesh {
  private:
   struct Topology {
     std::vector<Triangle> triangles;
-    bool closed;
-    int winding;
+    SurfaceKind surface;
+    Enclosure enclosure;
     MeshOrder order;
   };
 

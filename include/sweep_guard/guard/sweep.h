@@ -24,6 +24,9 @@ struct SweepOptions {
   bool fine = true;             ///< compute timeOfImpact() of the triangles that the swept volumes meet (narrow phase)
 };
 
+/// On which side of the surface of a mesh a piece of the tool lies.
+enum class PieceSide : std::uint8_t { kUnknown, kOutside, kInside };
+
 /// A triangle that the narrow phase finds in contact with the tool.
 struct TriangleContact {
   std::uint32_t triangle;
@@ -56,9 +59,10 @@ struct SweepResult {
   /// Those of `not_ruled_out` that only pieces meet which are meant to (Intention): ascending, each once. Empty without
   /// narrow phase.
   TriangleSet intended = {};
-  /// A piece of the tool lies wholly inside the closed mesh. Tested only if the sweep's `not_ruled_out` holds nothing but
-  /// `intended`, and then not for the links that touch as intended; false otherwise, and for a mesh that is not closed().
+  /// A piece of the tool lies wholly inside the mesh. Tested only if the sweep's `not_ruled_out` holds nothing but `intended`,
+  /// and then not for the links that touch as intended; false otherwise, and where an open mesh leaves it untested.
   bool inside = false;
+  std::vector<PieceSide> sides = {};  ///< of each piece of one tool at the end of the motion
   /// What is met by the pieces that may; all other members but `margin` and `volumes_M` are without these pieces.
   AllowedContact allowed = {};
 

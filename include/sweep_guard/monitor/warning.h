@@ -86,6 +86,10 @@ void computeWarning(const WarningInputs& inputs, const Instant& now, const Warni
 /// workpieces were swept.
 std::string meshProblems(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits);
 
+/// Appends to a text that it cannot be told whether the tool is inside a workpiece.
+/// @param edges  TriangleMesh::openEdges(), > 0
+void appendOpenSurface(const std::string& id, size_t edges, std::string& text);
+
 /// Returns the level of a predicted contact now, or at the end of its prediction if that is over, as it counts until
 /// the next call: kReflex if its `reflex` is at most the reflex interval and `tick` away, kConsidered if its
 /// `considered` is at most the considered interval and `tick` away, otherwise kClear.

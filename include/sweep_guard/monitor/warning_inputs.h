@@ -22,8 +22,9 @@ struct WarningInputs {
     /// The pose at which the last sweep began is older by this than the oldest update that is still kept: how the
     /// workpiece moved in between was not tested, and `swept` is false. 0: nothing was left out.
     Duration behind = {};
-    bool dropped = false;  ///< an update was dropped unread, and no later one has been swept
-    bool ages = true;      ///< false: of another tool
+    bool dropped = false;   ///< an update was dropped unread, and no later one has been swept
+    bool ages = true;       ///< false: of another tool
+    size_t open_edges = 0;  ///< borders of its surface, TriangleMesh::openEdges()
   };
   /// Another tool that is watched, too.
   struct OtherTool {

@@ -51,6 +51,7 @@ MeshInput::MeshInput(const ros::NodeHandle& node, const Parameters& parameters,
                      sweep_guard_core::WorkpieceStore& workpieces, sweep_guard_core::WarningMonitor& monitor)
     : mesh_ids_(parameters.mesh_ids),
       other_tools_(parameters.other_tools),
+      open_ids_(parameters.open_ids),
       max_triangles_(parameters.max_triangles),
       max_waiting_bytes_(capacity(parameters)),
       workpieces_(workpieces),
@@ -155,7 +156,7 @@ void MeshInput::convert(const sweep_guard::DeformableMesh::ConstPtr& msg, Steady
     auto mesh_M = std::make_shared<std::optional<TriangleMesh>>();
     if (!removes(*msg)) {
       checkHeader(msg->header);
-      mesh_M->emplace(fromMsg(msg->mesh, max_triangles_));
+      mesh_M->emplace(meshOf(*msg));
     }
     storing_.push({[this, msg, received, mesh_M] { store(*msg, received, std::move(*mesh_M)); },
                    [this, msg, received] { drop(*msg, received); }, sizeOf(*msg)});
@@ -163,6 +164,12 @@ void MeshInput::convert(const sweep_guard::DeformableMesh::ConstPtr& msg, Steady
     monitor_.meshRefused(msg->id, refusal(msg->id, error, mesh_record_), received);
     keepIfEarly(msg, received);
   }
+}
+
+TriangleMesh MeshInput::meshOf(const sweep_guard::DeformableMesh& msg) const {
+  using sweep_guard_core::SurfaceKind;
+  const bool is_open = msg.open != 0 || open_ids_.count(msg.id) != 0;
+  return fromMsg(msg.mesh, max_triangles_, is_open ? SurfaceKind::kSheet : SurfaceKind::kMayEnclose);
 }
 
 // The clock of a simulation may be silent for a while, and a latched mesh is not sent again.
@@ -194,7 +201,7 @@ void MeshInput::storeEarly(const std::string& id) {
   const auto& [msg, received] = *early;
   try {
     checkHeader(msg->header);
-    store(*msg, received, fromMsg(msg->mesh, max_triangles_));
+    store(*msg, received, meshOf(*msg));
   } catch (const std::exception& error) {  // invalid, or out of memory
     monitor_.meshRefused(id, refusal(id, error, mesh_record_), received);
   }

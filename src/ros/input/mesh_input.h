@@ -62,6 +62,7 @@ class MeshInput {
   bool enterConversion(const std::string& id, bool needed);
   void leaveConversion(const std::string& id);
   void pushToConversion(const std::string& id, const Worker::Job& job);
+  sweep_guard_core::TriangleMesh meshOf(const sweep_guard::DeformableMesh& msg) const;
   void convert(const sweep_guard::DeformableMesh::ConstPtr& msg, sweep_guard_core::SteadyTime received);
   void pushToStore(const sweep_guard::MeshVertices::ConstPtr& msg, sweep_guard_core::SteadyTime received);
   void store(const sweep_guard::DeformableMesh& msg, sweep_guard_core::SteadyTime received,
@@ -77,6 +78,7 @@ class MeshInput {
 
   const std::set<std::string> mesh_ids_;
   const std::vector<std::string> other_tools_;
+  const std::set<std::string> open_ids_;
   const size_t max_triangles_;
   const size_t max_waiting_bytes_;  // in each of three places
   sweep_guard_core::WorkpieceStore& workpieces_;

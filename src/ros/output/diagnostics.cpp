@@ -145,6 +145,10 @@ void Diagnostics::workpieces(Status& status) const {
     status.addf("'" + workpiece->id + "'", "revision %u, %zu triangles in '%s', %.3f s old", workpiece->revision,
                 workpiece->mesh_M.triangles().size(), workpiece->frame.c_str(),
                 toSeconds(sweep_guard_core::age(seen, at)));
+    if (workpiece->mesh_M.openEdges() == 0) continue;
+    std::string open;
+    sweep_guard_core::appendOpenSurface(workpiece->id, workpiece->mesh_M.openEdges(), open);
+    status.add("inside of '" + workpiece->id + "'", open);
   }
   for (const std::string& id : parameters->attached) status.add("'" + id + "'", "attached to the tool");
 }

@@ -301,6 +301,28 @@ std::map<std::string, double> ParameterReader::numbers(const std::string& key, c
   return numbers;
 }
 
+std::map<std::string, bool> ParameterReader::flagsOf(const std::string& key, const std::string& flag,
+                                                     const std::string& effect) {
+  XmlRpc::XmlRpcValue value;
+  const std::string wanted = "a group of groups " + grouped({flag}, {"true or false"}) + ", or {}";
+  std::map<std::string, bool> flags;
+  std::string entries;
+  if (get(key, value)) {
+    if (value.getType() != XmlRpc::XmlRpcValue::TypeStruct) refuse(key, value, wanted);
+    for (auto& [name, group] : value) {
+      const std::string group_key = std::string(key).append("/").append(name);
+      const bool has_flag = group.getType() == XmlRpc::XmlRpcValue::TypeStruct && group.size() == 1 &&
+                            group.hasMember(flag) && group[flag].getType() == XmlRpc::XmlRpcValue::TypeBoolean;
+      if (!has_flag) refuse(group_key, group, wanted);
+      read_.insert(group_key + "/" + flag);
+      flags[name] = static_cast<bool>(group[flag]);
+      entries += (entries.empty() ? "" : ", ") + name + ": " + grouped({flag}, {flags[name] ? "true" : "false"});
+    }
+  }
+  describe({key, "{" + entries + "}", std::string("{}"), 0.0, 0.0, {}, wanted, effect});
+  return flags;
+}
+
 std::string ParameterReader::searchText(const std::string& name) {
   std::string key;
   XmlRpc::XmlRpcValue value;

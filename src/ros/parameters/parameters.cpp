@@ -260,6 +260,13 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
                  "Workpieces that must be there: the warning is not CLEAR without each of them, and no other id is "
                  "listened to. []: all ids that come.");
   parameters.mesh_ids.insert(ids.begin(), ids.end());
+  for (const auto& [id, is_open] :
+       read.flagsOf("workpieces", "open",
+                    "What is known of some workpieces by their id, as in {curtain: {open: true}}. open: the surface "
+                    "has no inside, so "
+                    "the guard does not test for it and does not report INSIDE_UNTESTED.")) {
+    if (is_open) parameters.open_ids.insert(id);
+  }
   parameters.other_tools = read.nodes(
       "other_tools",
       "Nodes of the guards of other tools, as in [/left/sweep_guard]: their links are workpieces, too, which "

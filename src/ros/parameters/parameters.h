@@ -55,6 +55,7 @@ struct Parameters {
   std::set<std::string> marker_namespaces;  ///< published ones
   sweep_guard_core::Duration check_sweep_deadline;
   int realtime_priority;                 ///< of the guard's thread; 0: none
+  std::set<std::string> open_ids;        ///< workpieces whose surfaces have no inside
   std::set<std::string> mesh_ids;        ///< workpieces that must be there; empty: all that come
   std::vector<std::string> other_tools;  ///< nodes of their guards
   bool allow_several_publishers;         ///< of tool poses

@@ -78,7 +78,7 @@ void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Re
   response.message =
       doubts_before.empty() ? tests_.doubts(*question, request.mesh_ids, framesOf(request)) : doubts_before;
   response.clear = !response.collision && response.message.empty();
-  addLeftOut(*question, response.message);
+  addRemarks(*question, response.message);
 }
 
 std::vector<Eigen::Isometry3d> CheckSweepService::pathIn(const std::string& mesh_frame,

@@ -164,7 +164,7 @@ void CheckTrajectoryService::check(const CheckTrajectory::Request& request, Chec
                          ? tests_.doubts(*question, request.mesh_ids, {request.tool_pose.header.frame_id})
                          : doubts_before;
   response.clear = !response.collision && response.message.empty();
-  addLeftOut(*question, response.message);
+  addRemarks(*question, response.message);
 }
 
 Eigen::Isometry3d CheckTrajectoryService::toolPoseIn(const std::string& mesh_frame,

@@ -34,9 +34,15 @@ sweep_guard_core::SweepOptions sweepOptions(const PathRequestOptions& asked, swe
 
 }  // namespace
 
-void addLeftOut(const PathQuestion& question, std::string& message) {
+void addRemarks(const PathQuestion& question, std::string& message) {
   sweep_guard_core::Workpieces tested;
-  for (const PathQuestion::Path& path : question.paths) tested.push_back(path.workpiece);
+  for (const PathQuestion::Path& path : question.paths) {
+    if (tested.empty() || tested.back() != path.workpiece) tested.push_back(path.workpiece);
+  }
+  for (const auto& workpiece : tested) {
+    const size_t edges = workpiece->mesh_M.openEdges();
+    if (edges > 0) sweep_guard_core::appendOpenSurface(workpiece->id, edges, message);
+  }
   const std::string left_out = describeLeftOut(question.parameters->guard.allowed, tested);
   message += (message.empty() || left_out.empty() ? "" : "; ") + left_out;
 }

@@ -86,9 +86,9 @@ class PathTests {
   BackgroundThread sweeps_{[] { setNice(10); }};
 };
 
-/// Says which allowed pairs (tool/allowed) the test of a question has left out.
+/// Says what the test of a question has left out: allowed pairs (tool/allowed), and the inside of open surfaces.
 /// @param[in,out] message  to the caller; is added to
-void addLeftOut(const PathQuestion& question, std::string& message);
+void addRemarks(const PathQuestion& question, std::string& message);
 
 /// Fills the answer to a question that was not tested.
 template <typename Response>

@@ -161,7 +161,7 @@ Eigen::VectorXd vertexAreas(const TriangleMesh& mesh) {
 
 BarStructure barsOf(const TriangleMesh& mesh, const ElasticMaterial& material) {
   check(material);
-  const bool encloses = mesh.winding() != 0;
+  const bool encloses = mesh.closed() && !mesh.enclosure().closedTriangles().empty();
   const MatrixX3d nodes = nodesOf(mesh, encloses ? pointsInside(mesh, material.inner_points) : std::vector<Vector3d>());
   BarBuilder builder(nodes, material);
   for (const auto& triangle : mesh.triangles()) builder.addTriangle(triangle);
