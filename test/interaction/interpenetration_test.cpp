@@ -53,6 +53,21 @@ TEST(InterpenetrationTest, OfABoxPressedIntoAFaceIsItsPartBehindTheFace) {
   }
 }
 
+TEST(InterpenetrationTest, CountsFacesThatAreThereTwiceOnce) {
+  const TriangleMesh box = boxMesh({1.0, 1.0, 1.0});
+  std::vector<Vector3d> corners;
+  for (size_t i = 0; i < 8; ++i) corners.push_back(box.vertex(i));
+  for (const bool reversed : {false, true}) {
+    std::vector<Triangle> triangles = box.triangles();
+    for (const auto& [a, b, c] : box.triangles()) triangles.push_back(reversed ? Triangle{a, c, b} : Triangle{a, b, c});
+    const Interpenetration found =
+        find(ConvexShape::box(kHalfPiece), TriangleMesh(corners, triangles), placedAt(0.1, 0.2, 1.02));
+    EXPECT_TRUE(found.enclosed);
+    EXPECT_NEAR(found.volume, 0.02 * 0.04 * 0.01, 1e-18);
+    EXPECT_NEAR(found.area_T.z(), 0.02 * 0.04, 1e-12);
+  }
+}
+
 TEST(InterpenetrationTest, OfAPieceThatTouchesNoTriangleIsAllOrNothing) {
   const ConvexShape box = ConvexShape::box(kHalfPiece);
   const TriangleMesh mesh = boxMesh({1.0, 1.0, 1.0});

@@ -121,12 +121,20 @@ class MeshPublisherTest(RunningGuardTest):
         self.assertEqual([[v.x, v.y, v.z] for v in mesh.mesh.vertices], TRIANGLE.tolist())
         self.assertEqual([list(t.vertex_indices) for t in mesh.mesh.triangles], FACES.tolist())
         self.assertEqual((mesh.id, mesh.revision, mesh.header.frame_id, mesh.header.stamp), ('sheet', 1, 'world', stamp))
+        self.assertFalse(mesh.open)
         while updates.empty():
             publisher.deform(TRIANGLE + 1.0, stamp=stamp)
         update = updates.get()
         self.assertEqual(list(update.positions), (TRIANGLE + 1.0).astype(numpy.float32).ravel().tolist())
         self.assertEqual((update.id, update.revision, update.header.frame_id, update.header.stamp),
                          ('sheet', 1, 'world', stamp))
+
+    def test_a_surface_without_an_inside_is_said_to_be_open(self):
+        meshes = self.received('carried', DeformableMesh)
+        self.publisher(mesh_topic='carried', open=True).publish(TRIANGLE, FACES)
+        mesh = meshes.get(timeout=PATIENCE)
+        self.assertTrue(mesh.open)
+        self.assertEqual([list(t.vertex_indices) for t in mesh.mesh.triangles], FACES.tolist())
 
     def test_a_late_subscriber_receives_every_workpiece_of_the_node(self):
         publishers = [self.publisher(name, mesh_topic='late') for name in ('gone', 'left', 'right')]

@@ -10,7 +10,7 @@ namespace sweep_guard_core {
 
 /// What a convex piece of the tool and a workpiece have in common, at one pose, in the tool frame T.
 ///
-/// Of a mesh that encloses something (TriangleMesh::winding() is not 0) the volume is that of the piece inside of the
+/// Of a mesh that encloses something (TriangleMesh::closed()) the volume is that of the piece inside of the
 /// mesh. Each triangle is swept against one direction fixed in T, clipped to the piece, and counted by the side to
 /// which it faces: the sum needs neither caps nor an inside test, also where the piece touches no triangle. Where the
 /// mesh intersects itself, volume counts as often as it is enclosed.
