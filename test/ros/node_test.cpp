@@ -100,6 +100,7 @@ TEST_F(NodeTest, FindsASquareThatJumpsOverARestingTool) {
 
 TEST_F(NodeTest, AToolInsideAClosedMeshIsContact) {
   auto box = squareAt("box", {0.0, 0.0, -1.0}, probe().time(), /*half_side=*/1.0);
+  box.open = 0;
   for (int i = 0; i < 4; ++i) {
     box.mesh.vertices.push_back(box.mesh.vertices[static_cast<size_t>(i)]);
     box.mesh.vertices.back().z = 1.0;
