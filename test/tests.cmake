@@ -1,12 +1,8 @@
 # sweep_guard_label(TEST LABEL...) - unit: runs anywhere, in seconds; ros: starts a master; slow: takes longer than 10 s, and
 # begins before the others; search: draws as many cases as SWEEP_GUARD_SCENES and SWEEP_GUARD_CASES say; nightly: not in
-# scripts/test. Tests with ros wait for most of their time, so scripts/test runs one more of them than there are processors; all
-# others count twice.
+# scripts/test
 function(sweep_guard_label test)
   set_tests_properties(${test} PROPERTIES LABELS "${ARGN}")
-  if(NOT ros IN_LIST ARGN)
-    set_tests_properties(${test} PROPERTIES PROCESSORS 2)
-  endif()
   if(slow IN_LIST ARGN)
     set_tests_properties(${test} PROPERTIES COST 30)
   endif()
