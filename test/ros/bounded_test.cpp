@@ -260,7 +260,8 @@ TEST(WrappedLengthTest, IsRefusedThoughItsBytesAreThere) {
   sweep_guard::DeformableMesh mesh;
   mesh.mesh.triangles.resize(1);
   mesh.mesh.vertices.resize(1);
-  for (const size_t position : {positions, positions + 4 + 12}) {
+  const size_t triangles = positions + 1;
+  for (const size_t position : {triangles, triangles + 4 + 12}) {
     EXPECT_NO_THROW(check<sweep_guard::DeformableMesh>(withLength(serialized(mesh), position, 1)));
     for (const std::uint32_t forged : {0x40000001U, 0x20000001U}) {
       EXPECT_THROW(check<sweep_guard::DeformableMesh>(withLength(serialized(mesh), position, forged)),
