@@ -11,6 +11,9 @@ namespace sweep_guard_core {
 namespace {
 
 constexpr Duration kMaxBeyond = std::chrono::milliseconds(250);
+constexpr Duration kVelocityTime = std::chrono::milliseconds(20);  // stamps that are nearer make noise of rounding
+constexpr Duration kKept = std::chrono::milliseconds(100);         // of what velocity() needs
+constexpr size_t kMaxKept = 8192;                                  // as SampleBuffer
 
 struct FrameKnot {
   Time time;
@@ -66,10 +69,26 @@ FrameKnot beyond(const FrameMotion& motion, const std::vector<FrameKnot>& knots,
   return knot;
 }
 
+// A frame that nobody predicts. Its error is that of a speed that is unknown by as much as it is.
+FrameKnot wentOn(const FrameMotion& motion, Time time) {
+  const FramePose& newest = motion.measured.back();
+  const double seconds = toSeconds(time - newest.stamp);
+  const Vector6d way = seconds * motion.velocity();
+  FrameKnot knot{time, newest.X_WM, Matrix6d::Zero(), 0.0};
+  const Eigen::Vector3d turn = way.tail<3>();
+  if (!turn.isZero(0.0))
+    knot.X_WM.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()) * newest.X_WM.linear();
+  knot.X_WM.translation() += way.head<3>();
+  knot.covariance.diagonal() << Eigen::Vector3d::Constant(way.head<3>().squaredNorm() / 3.0),
+      Eigen::Vector3d::Constant(turn.squaredNorm() / 3.0);
+  return knot;
+}
+
 std::optional<FrameKnot> knotAt(const FrameMotion& motion, const std::vector<FrameKnot>& knots, Time time) {
   const auto is_before = [](const FrameKnot& knot, Time limit) { return knot.time < limit; };
   const auto next = std::lower_bound(knots.begin(), knots.end(), time, is_before);
   if (next == knots.end()) {
+    if (motion.goes_on) return wentOn(motion, time);
     const bool known = motion.predicted.size() > 1 && time - knots.back().time <= kMaxBeyond;
     return known ? std::optional(beyond(motion, knots, time)) : std::nullopt;
   }
@@ -95,6 +114,15 @@ double deviationBound(const std::vector<FrameKnot>& knots, double radius) {
   return deviation + mergedMotion(path, 0, path.size() - 1, radius).deviation_bound;
 }
 
+// Poses that other ones replace for every later pose of the tool.
+void forgetBefore(Time pose, std::vector<FramePose>& measured) {
+  const Time from = std::min(pose, measured.back().stamp - kKept);
+  const auto is_needed = [&](const FramePose& one) { return one.stamp > from; };
+  const auto needed = std::find_if(measured.begin(), measured.end(), is_needed);
+  const auto kept = std::min<std::ptrdiff_t>(needed - measured.begin() - 1, static_cast<std::ptrdiff_t>(measured.size()) - 2);
+  if (kept > 0) measured.erase(measured.begin(), measured.begin() + kept);
+}
+
 bool beginsWith(const std::string& name, const std::string& beginning) {
   return name.compare(0, beginning.size(), beginning) == 0;
 }
@@ -105,6 +133,18 @@ std::optional<PredictedPose> FrameMotion::at(Time time) const {
   const auto knot = knotAt(*this, knotsOf(*this, 0.0), time);
   if (!knot) return std::nullopt;
   return PredictedPose{knot->time - predicted_from, knot->X_WM, knot->covariance};
+}
+
+Vector6d FrameMotion::velocity() const {
+  const FramePose& to = measured.back();
+  auto from = measured.rbegin();
+  while (!from->anew && std::next(from) != measured.rend() && to.stamp - from->stamp < kVelocityTime) ++from;
+  const double seconds = toSeconds(to.stamp - from->stamp);
+  if (!(seconds > 0.0)) return Vector6d::Zero();
+  const Eigen::AngleAxisd turn(to.X_WM.linear() * from->X_WM.linear().transpose());
+  Vector6d velocity;
+  velocity << (to.X_WM.translation() - from->X_WM.translation()) / seconds, turn.angle() / seconds * turn.axis();
+  return velocity;
 }
 
 std::optional<FramePath> framePath(const FrameMotion& motion, Time begin, const PredictedPath& path, double radius) {
@@ -147,6 +187,41 @@ void FrameMotionStore::set(const FrameMotions& motions) {
     if (frames_.count(frame) != 0) next[frame] = motion;
   }
   motions_ = std::make_shared<const FrameMotions>(std::move(next));
+}
+
+bool FrameMotionStore::add(const std::string& frame, const FramePose& pose) {
+  const std::lock_guard lock(mutex_);
+  FrameMotions next = *motions_;
+  FrameMotion motion;
+  if (const auto known = next.find(frame); known != next.end()) motion = *known->second;
+  motion.goes_on = true;
+  auto& measured = motion.measured;
+  const auto is_after = [](Time time, const FramePose& one) { return time < one.stamp; };
+  const auto place = std::upper_bound(measured.begin(), measured.end(), pose.stamp, is_after);
+  if (place != measured.begin() && std::prev(place)->stamp == pose.stamp) return true;
+  measured.insert(place, pose);
+  sweep_guard_core::forgetBefore(needed_from_, measured);
+  const bool full = measured.size() > kMaxKept;
+  if (full) measured.erase(measured.begin() + 1);
+  next[frame] = std::make_shared<const FrameMotion>(std::move(motion));
+  motions_ = std::make_shared<const FrameMotions>(std::move(next));
+  added_.insert(frame);
+  return !full;
+}
+
+void FrameMotionStore::keepOnly(const std::set<std::string>& frames) {
+  const std::lock_guard lock(mutex_);
+  FrameMotions left = *motions_;
+  for (auto frame = added_.begin(); frame != added_.end();) {
+    if (frames.count(*frame) == 0) left.erase(*frame);
+    frame = frames.count(*frame) == 0 ? added_.erase(frame) : std::next(frame);
+  }
+  if (left.size() != motions_->size()) motions_ = std::make_shared<const FrameMotions>(std::move(left));
+}
+
+void FrameMotionStore::forgetBefore(Time pose) {
+  const std::lock_guard lock(mutex_);
+  needed_from_ = pose;
 }
 
 std::shared_ptr<const FrameMotions> FrameMotionStore::get() const {

@@ -44,6 +44,8 @@ void assign(PoseWithFrames& to, const PoseWithFrames& from) {
   to.X_WT = from.X_WT;
   to.bodies = from.bodies;
   to.state = from.state;
+  to.anew = from.anew;
+  to.drifts = from.drifts;
   auto next = from.X_WM.begin();
   for (auto& [frame, X_WM] : to.X_WM) X_WM = next++->second;
 }
@@ -120,21 +122,41 @@ Guard::~Guard() = default;
 const Tool& Guard::tool(size_t body) const { return bodies_[body]->tool; }
 
 void Guard::sweep(const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report) {
+  observe(pose);
+  sweepBodies(pose, report, [&](size_t i, GuardedBody& body, const SweepSetup& setup, SweepReport& swept) {
+    body.sweeps.sweep(setup, pose, pose.body(i), workpieces, swept);
+  });
+  if (!newest_) newest_.emplace();
+  assign(*newest_, pose);
+}
+
+void Guard::sweepOn(const Workpieces& workpieces, SweepReport& report) {
+  assert(newest_);
+  placeFollowed(*frames_, *newest_);
+  sweepBodies(*newest_, report, [&](size_t, GuardedBody& body, const SweepSetup& setup, SweepReport& swept) {
+    body.sweeps.sweepOn(setup, *newest_, workpieces, swept);
+  });
+}
+
+template <typename Sweep>
+void Guard::sweepBodies(const PoseWithFrames& pose, SweepReport& report, const Sweep& sweep) {
   const SteadyTime begin = options_.clock();
-  predictor_.observe(pose);
   displacements_->forgetUnused();
   forEachBody(bodies_, swept_order_, &GuardedBody::report, report,
               [&](size_t i, GuardedBody& body, SweepReport& swept) {
-                const BodyPose at = pose.body(i);
                 const SweepSetup setup{
                     body.tool,     *detector_,       options_.sweep, *displacements_,   [this] { throwIfStopping(); },
                     *intentions(), options_.allowed, *frames_,       bodies_.size() > 1};
-                body.sweeps.sweep(setup, pose, at, workpieces, swept);
-                body.touches.update(swept, pose, at.X_WB, body.tool, *intentions());
+                sweep(i, body, setup, swept);
+                body.touches.update(swept, pose, pose.body(i).X_WB, body.tool, *intentions());
               });
-  if (!newest_) newest_.emplace();
-  assign(*newest_, pose);
   budget_->spentOnMeasured(options_.clock() - begin);
+}
+
+// What is placed anew goes back to the pose before: nothing that moves is observed there.
+void Guard::observe(const PoseWithFrames& pose) {
+  if (pose.anew && pose.anew->tool) predictor_.restartTool();
+  if (!pose.anew) predictor_.observe(pose);
 }
 
 void Guard::takeBack() noexcept {
@@ -142,7 +164,7 @@ void Guard::takeBack() noexcept {
 }
 
 void Guard::pass(const PoseWithFrames& pose) {
-  predictor_.observe(pose);
+  observe(pose);
   for (size_t i = 0; i < bodies_.size(); ++i) bodies_[i]->sweeps.pass(pose, pose.body(i), *frames_);
 }
 

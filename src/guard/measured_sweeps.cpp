@@ -79,9 +79,16 @@ void MeasuredSweeps::pass(const PoseWithFrames& pose, const BodyPose& body, cons
 void MeasuredSweeps::add(const PoseWithFrames& pose, const BodyPose& body, const FrameMotions& frames) {
   ++poses_;
   for (const auto& [frame, X_WM] : pose.X_WM) {
-    if (frames.count(frame) == 0) histories_[frame].add({poses_, pose.stamp, body.X_WB, X_WM, body.deviation_bound});
+    const bool goes_there = !pose.anew || pose.anew->concerns(frame);
+    if (frames.count(frame) != 0 || !goes_there) continue;
+    joined_.erase(frame);
+    histories_[frame].add({poses_, pose.stamp, body.X_WB, X_WM, body.deviation_bound, pose.anew.has_value()});
   }
-  for (const auto& [frame, motion] : frames) joined_[frame].add(pose.stamp, body);
+  const bool anew = pose.anew && pose.anew->tool;
+  if (pose.anew && !anew) return;
+  for (const auto& [frame, motion] : frames) {
+    if (!joined_[frame].add(pose.stamp, body, anew)) passed_over_.insert(frame);
+  }
 }
 
 // Numbers ascend in each history, also where several samples lie between two poses.
@@ -89,7 +96,8 @@ void MeasuredSweeps::join(const FrameMotions& frames) {
   for (const auto& [frame, motion] : frames) {
     joined_[frame].join(*motion, samples_);
     for (const JoinedMotion::Sample& sample : samples_)
-      histories_[frame].add({++poses_, sample.stamp, sample.X_WB, sample.X_WM, sample.deviation_bound});
+      histories_[frame].add({++poses_, sample.stamp, sample.X_WB, sample.X_WM, sample.deviation_bound,
+                             sample.anew});
   }
 }
 
@@ -99,12 +107,27 @@ bool MeasuredSweeps::isPlaced(const std::string& frame, const PoseWithFrames& po
 
 void MeasuredSweeps::sweep(const SweepSetup& setup, const PoseWithFrames& pose, const BodyPose& body,
                            const Workpieces& workpieces, SweepReport& report) {
+  begin(workpieces);
+  add(pose, body, setup.frames);
+  sweepJoined(setup, pose, workpieces, report);
+}
+
+void MeasuredSweeps::sweepOn(const SweepSetup& setup, const PoseWithFrames& pose, const Workpieces& workpieces,
+                             SweepReport& report) {
+  begin(workpieces);
+  sweepJoined(setup, pose, workpieces, report);
+}
+
+void MeasuredSweeps::begin(const Workpieces& workpieces) {
   forgetRemoved(workpieces);
   for (auto& [id, swept] : swept_) {
     swept.before = swept.pose;
     swept.grown = false;
   }
-  add(pose, body, setup.frames);
+}
+
+void MeasuredSweeps::sweepJoined(const SweepSetup& setup, const PoseWithFrames& pose, const Workpieces& workpieces,
+                                 SweepReport& report) {
   join(setup.frames);
   report.start = report.end = pose.stamp;
   const auto is_placed = [&](const Workpiece& workpiece) { return isPlaced(workpiece.frame, pose, setup.frames); };
@@ -120,6 +143,7 @@ void MeasuredSweeps::sweep(const SweepSetup& setup, const PoseWithFrames& pose, 
   for (auto& [frame, history] : histories_) shorten(frame, history);
   report.backlog = pose.stamp - waiting_since_.value_or(pose.stamp);
   waiting_since_.reset();
+  report.passed_over = std::exchange(passed_over_, {});
   swept_to_ = poses_;
 }
 
@@ -137,7 +161,7 @@ void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<
   const MovingMesh mesh = movingMesh(*workpiece, *from, setup.displacements.between(from, workpiece));
   const bool again = deformed && mesh.moved();
   const size_t first = again ? std::min(begin, history.lastUpTo(before.stamp)) : begin;
-  const Segment segment{*workpiece, history, mesh, first, begin, last, end_time};
+  const Segment segment{*workpiece, history, mesh, first, begin, last, begin, end_time};
   object.workpiece = workpiece;
   object.interval_start = history[begin].stamp;
   object.result.clear();
@@ -146,7 +170,7 @@ void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<
     leaveOut(setup, segment.hasNew(), swept.cache, object.result);
   } else {
     cache_ = swept.cache;
-    sweepSegment(setup, segment, object);
+    sweepMotions(setup, segment, object);
   }
   if (deformed) swept.deformations.push_back(workpiece);
   swept.grown = deformed;
@@ -154,8 +178,21 @@ void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<
   if (!left_out) std::swap(swept.cache, cache_);
 }
 
+// What was found before the tool or the workpiece was placed anew says nothing of where they are now.
+void MeasuredSweeps::sweepMotions(const SweepSetup& setup, const Segment& segment, SweptObject& object) {
+  Segment motion = segment;
+  while (true) {
+    motion.last = segment.history.endOfMotion(motion.first, segment.last);
+    motion.begin = std::clamp(segment.begin, motion.first, motion.last);
+    sweepSegment(setup, motion, object);
+    if (motion.last == segment.last) return;
+    motion.first = motion.last + 1;
+    cache_ = {};
+  }
+}
+
 void MeasuredSweeps::sweepSegment(const SweepSetup& setup, const Segment& segment, SweptObject& object) {
-  const auto& [workpiece, history, mesh, first, begin, last, end_time] = segment;
+  const auto& [workpiece, history, mesh, first, begin, last, interval_begin, end_time] = segment;
   const IntendedContact intended(setup.tool, setup.intentions, workpiece);
   const AllowedPieces allowed(setup.tool, setup.allowed, workpiece.id);
   history.path_M(first, last, setup.tool.boundingRadius(), path_M_);
@@ -175,7 +212,7 @@ void MeasuredSweeps::sweepSegment(const SweepSetup& setup, const Segment& segmen
     if (is_new) cache_.contact_normals.clear();
     update(cache_, result);
     for (std::vector<TriangleContact>* const in_contact : {&result.in_contact, &result.allowed.in_contact})
-      rescale(*in_contact, history.share(begin, i, end_time), history.share(begin, end, end_time));
+      rescale(*in_contact, history.share(interval_begin, i, end_time), history.share(interval_begin, end, end_time));
     unite(object.result, result);
     i = end;
   } while (i < last);
@@ -240,6 +277,7 @@ void MeasuredSweeps::takeBack() noexcept {
 void MeasuredSweeps::reset() {
   histories_.clear();
   joined_.clear();
+  passed_over_.clear();
   swept_.clear();
   waiting_since_.reset();
 }

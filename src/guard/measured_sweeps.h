@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,10 @@ class MeasuredSweeps {
   void sweep(const SweepSetup& setup, const PoseWithFrames& pose, const BodyPose& body, const Workpieces& workpieces,
              SweepReport& report);
 
+  /// Sweeps on to where the frames that move on their own are known now.
+  /// @param pose  of the last sweep, since which no pose was passed
+  void sweepOn(const SweepSetup& setup, const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report);
+
   /// Takes the last sweep back: its report was lost. The next one repeats it.
   void takeBack() noexcept;
 
@@ -63,7 +68,8 @@ class MeasuredSweeps {
     bool grown = false;        // the last sweep has added a deformation
   };
 
-  // Poses to be swept against one workpiece. Those before `begin` were swept when its deformation was not known yet.
+  // Poses to be swept against one workpiece, from motion to motion. Those before `begin` were swept when its deformation was not
+  // known yet.
   struct Segment {
     const Workpiece& workpiece;
     const PoseHistory& history;
@@ -71,17 +77,22 @@ class MeasuredSweeps {
     size_t first;
     size_t begin;
     size_t last;
-    Time end_time;  // of the interval that times of impact are fractions of
+    size_t interval_begin;  // pose that the interval begins at that times of impact are fractions of
+    Time end_time;          // of that interval
 
     bool isNew(size_t i) const { return i >= begin; }
     bool hasNew() const { return first == begin || begin < last; }
   };
 
+  void begin(const Workpieces& workpieces);
   void add(const PoseWithFrames& pose, const BodyPose& body, const FrameMotions& frames);
+  void sweepJoined(const SweepSetup& setup, const PoseWithFrames& pose, const Workpieces& workpieces,
+                   SweepReport& report);
   void join(const FrameMotions& frames);
   bool isPlaced(const std::string& frame, const PoseWithFrames& pose, const FrameMotions& frames) const;
   void sweepObject(const SweepSetup& setup, const std::shared_ptr<const Workpiece>& workpiece, Time end_time,
                    SweptObject& object);
+  void sweepMotions(const SweepSetup& setup, const Segment& segment, SweptObject& object);
   void sweepSegment(const SweepSetup& setup, const Segment& segment, SweptObject& object);
   static const std::shared_ptr<const Workpiece>& deformationAt(Time pose, const Workpiece& newest, Swept& swept,
                                                                Duration& behind);
@@ -96,6 +107,7 @@ class MeasuredSweeps {
   std::vector<JoinedMotion::Sample> samples_;     // of one of these
   std::map<std::string, Swept> swept_;            // by id
   std::uint64_t poses_ = 0;                       // and samples of joined motions
+  std::set<std::string> passed_over_;             // frames for which poses waited in vain since the last sweep
   std::uint64_t swept_to_ = 0;                    // number of the pose of the last sweep
   std::optional<Time> waiting_since_;             // stamp of the first pose passed since then
   Path path_M_;                                   // of the segment under test

@@ -50,6 +50,12 @@ size_t PoseHistory::lastUpTo(Time stamp) const {
   return lastUpToKey(all_.begin(), all_.end(), stamp, [](const PoseSample& sample) { return sample.stamp; });
 }
 
+size_t PoseHistory::endOfMotion(size_t first, size_t last) const {
+  size_t end = first;
+  while (end < last && !(*this)[end + 1].anew) ++end;
+  return end;
+}
+
 double PoseHistory::share(size_t from, size_t i, Time end) const {
   if (i <= from) return 0.0;
   const double time = toSeconds(end - (*this)[from].stamp);
@@ -75,7 +81,7 @@ PoseBounds PoseHistory::bounds_M(size_t first, size_t last, const Eigen::Vector3
     const PoseSample& to = (*this)[i];
     const Eigen::Vector3d point_W = to.X_WT * point_T - to.X_WM.translation();
     bounds.point_M.extend(to.X_WM.linear().transpose() * point_W);
-    const double turn = i == first ? 0.0 : chordErrorBound((*this)[i - 1], to, tool_radius);
+    const double turn = i == first || to.anew ? 0.0 : chordErrorBound((*this)[i - 1], to, tool_radius);
     bounds.deviation = std::max(bounds.deviation, turn + to.deviation_bound + roundingOf(to));
   }
   return bounds;
@@ -135,7 +141,8 @@ JoinedMotion::Sample JoinedMotion::at(Time time, const FramePose& next) const {
   const Pose& to = body_[std::min<size_t>(1, body_.size() - 1)];
   return {time, between(from.stamp, from.body.X_WB, to.stamp, to.body.X_WB, time),
           between(frame_->stamp, frame_->X_WM, next.stamp, next.X_WM, time),
-          to.body.deviation_bound + next.deviation_bound};
+          to.body.deviation_bound + next.deviation_bound,
+          (to.anew && to.stamp == time) || (next.anew && next.stamp == time)};
 }
 
 }  // namespace sweep_guard_core

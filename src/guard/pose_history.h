@@ -19,6 +19,7 @@ struct PoseSample {
   Eigen::Isometry3d X_WT;
   Eigen::Isometry3d X_WM;
   double deviation_bound = 0.0;  ///< of the motion since the previous sample, see BodyPose
+  bool anew = false;             ///< there is no motion from the previous sample, see PlacedAnew
 };
 
 /// Where a point of the tool is at some poses, seen from a frame M, and how far the tool is from the chords between them.
@@ -48,12 +49,15 @@ class PoseHistory {
   /// Returns the index of the last pose with this stamp or an earlier one; 0 if there is none.
   size_t lastUpTo(Time stamp) const;
 
+  /// Returns the index of the last pose up to `last` that the tool has moved to from pose `first`, without being placed anew.
+  size_t endOfMotion(size_t first, size_t last) const;
+
   /// Returns the fraction of the time from pose `from` to `end` that has passed at pose `i`: 0 before `from`, and 1 if no
   /// time passes.
   /// @param end  not before the newest pose
   double share(size_t from, size_t i, Time end) const;
 
-  /// Computes the path of the tool in M from pose `first` to pose `last`.
+  /// Computes the path of the tool in M from pose `first` to pose `last`, which is not beyond endOfMotion().
   /// @param tool_radius   largest distance of a tool point from the origin of T [m], >= 0
   /// @param[out] path_M   overwritten
   void path_M(size_t first, size_t last, double tool_radius, Path& path_M) const;
@@ -98,10 +102,13 @@ class JoinedMotion {
     Eigen::Isometry3d X_WB;
     Eigen::Isometry3d X_WM;
     double deviation_bound;  ///< [m] of both together, since the previous sample
+    bool anew = false;       ///< body or frame did not move here from the previous sample
   };
 
   /// Adds the newest pose of the body; stamps do not decrease. Of more than 8192 that wait, it goes straight past the oldest.
-  void add(Time stamp, const BodyPose& body) { body_.add({stamp, body}); }
+  /// @param anew  the body did not move here; then the stamp is that of the pose before
+  /// @returns false if it goes past one
+  bool add(Time stamp, const BodyPose& body, bool anew = false) { return body_.add({stamp, body, anew}); }
 
   /// Computes the samples since the last call. The first is at the first time at which both are known.
   /// @param[out] samples  overwritten
@@ -111,6 +118,7 @@ class JoinedMotion {
   struct Pose {
     Time stamp;
     BodyPose body;
+    bool anew;
   };
 
   bool begin(const FrameMotion& frame, std::vector<Sample>& samples);

@@ -121,6 +121,7 @@ void unite(SweepReport& all, SweepReport& body, size_t first_piece) {
   all.start = std::min(all.start, body.start);
   all.backlog = std::max(all.backlog, body.backlog);
   unite(all.failures, body.failures);
+  all.passed_over.insert(body.passed_over.begin(), body.passed_over.end());
   uniteEach(all.objects, body.objects, first_piece,
             [&](SweptObject& known, SweptObject& object) { unite(known, object, all.end); });
 }

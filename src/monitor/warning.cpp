@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "common/number_text.h"
+#include "monitor/late_frames.h"
 
 namespace sweep_guard_core {
 namespace {
@@ -109,6 +110,16 @@ void addOtherToolReasons(const WarningInputs& inputs, const Instant& now, const 
       addObject(warning, kOtherToolUnknown,
                 {"newest pose of the tool of '", tool.name, "' is ", inSeconds(age(*tool.newest, now)), " old"});
     }
+  }
+}
+
+void addFrameReasons(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning) {
+  for (const WarningInputs::Frame& frame : inputs.frames) {
+    const auto late = lateAge(frame, now, limits.pose_timeout);
+    if (!late) continue;
+    addObject(warning, kTfFail,
+              {"transforms of '", frame.name, "' are up to ", inSeconds(*late),
+               " old: send them sooner or more often, or raise timing/pose_timeout"});
   }
 }
 
@@ -306,6 +317,7 @@ void computeWarning(const WarningInputs& inputs, const Instant& now, const Warni
   addObjectReasons(inputs, now, limits, warning);
   addCoverageReasons(inputs, now, limits, warning);
   addOtherToolReasons(inputs, now, limits, warning);
+  addFrameReasons(inputs, now, limits, warning);
   addLoadReasons(inputs, now, limits, warning);
   for (const auto& [reason, message] : inputs.faults) add(warning, reason, {message});
   addThreadReasons(inputs, warning);

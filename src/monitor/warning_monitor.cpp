@@ -5,6 +5,7 @@
 #include "common/stage_clock.h"
 #include "guard/cross_check.h"
 #include "monitor/faults.h"
+#include "monitor/late_frames.h"
 #include "monitor/swept_workpieces.h"
 #include "monitor/workpiece_warnings.h"
 
@@ -18,6 +19,7 @@ WarningMonitor::WarningMonitor(const WarningLimits& limits, std::function<void()
       hung_(std::move(hung)),
       limits_(limits),
       faults_(std::make_unique<Faults>(inputs_)),
+      late_frames_(std::make_unique<LateFrames>(inputs_)),
       workpieces_(std::make_unique<SweptWorkpieces>(inputs_)),
       warnings_(std::make_unique<WorkpieceWarnings>(inputs_, limits_)),
       refused_meshes_(std::make_unique<Refusals>()),
@@ -63,6 +65,16 @@ void WarningMonitor::toolUnknown(const std::string& name, const std::string& pro
 std::vector<WarningInputs::OtherTool> WarningMonitor::otherTools() const {
   const std::lock_guard lock(mutex_);
   return inputs_.other_tools;
+}
+
+void WarningMonitor::frameHeard(const std::string& frame, Time stamp, const Instant& now) {
+  const std::lock_guard lock(mutex_);
+  late_frames_->add(frame, stamp, now, limits_.pose_timeout);
+}
+
+void WarningMonitor::setMovingFrames(const std::set<std::string>& frames) {
+  const std::lock_guard lock(mutex_);
+  late_frames_->keepOnly(frames);
 }
 
 WarningMonitor::Checkpoint WarningMonitor::checkpoint() const {
@@ -178,9 +190,12 @@ void WarningMonitor::swept(const SweepReport& report, const Timestamps& pose, co
   const InStage stage(Stage::kMonitor);
   {
     const std::lock_guard lock(mutex_);
-    if (epoch_ != checkpoint.epoch) return;
+    if (epoch_ != checkpoint.epoch) return sweptBeforeJump(report, checkpoint, now);
     faults_->endBefore(checkpoint.faults, now);
     addFailures(report.failures, "detection on");
+    for (const std::string& frame : report.passed_over) {
+      faults_->add(kPosesUnswept, "transforms of '" + frame + "' are so late that tool poses were left out");
+    }
     inputs_.pose = pose;
     workpieces_->swept(report);
     if (report.complete()) swept_until_ = report.end;
@@ -191,6 +206,13 @@ void WarningMonitor::swept(const SweepReport& report, const Timestamps& pose, co
   if (!report.failures.empty()) on_fault_();
 }
 
+void WarningMonitor::sweptBeforeJump(const SweepReport& report, const Checkpoint& checkpoint, SteadyTime now) {
+  const bool counts = isToBeSweptLocked(checkpoint) && report.unintendedContact();
+  if (!counts || !updateContact(report, now, inputs_.contact)) return;
+  inputs_.contact->lasting = false;
+  warnings_->endAcknowledgements();
+}
+
 void WarningMonitor::predicted(const Prediction& prediction, const Timestamps& pose, const Checkpoint& checkpoint,
                                const Instant& now, Duration took) {
   const InStage stage(Stage::kMonitor);
@@ -199,6 +221,7 @@ void WarningMonitor::predicted(const Prediction& prediction, const Timestamps& p
     if (epoch_ != checkpoint.epoch) return;
     inputs_.look_ahead = took;
     addFailures(prediction.failures, "predicting contact with");
+    if (checkpoint.faults < placed_anew_) return;
     beginCoverage(prediction);
     warnings_->update(prediction, pose, workpieces_->newest(), now);
     coverage_->pose = pose;
@@ -265,15 +288,27 @@ std::vector<std::string> WarningMonitor::acknowledged(SteadyTime now) const {
 void WarningMonitor::timeJumped(const std::string& message) {
   {
     const std::lock_guard lock(mutex_);
+    const std::uint64_t first_epoch = first_epoch_;
     restartLocked();
+    first_epoch_ = first_epoch;
     if (inputs_.contact) inputs_.contact->lasting = false;
     faults_->add(kTimeJump, message);
   }
   on_fault_();
 }
 
+void WarningMonitor::placedAnew(const std::string& message) {
+  {
+    const std::lock_guard lock(mutex_);
+    faults_->add(kTimeJump, message);
+    placed_anew_ = faults_->count();
+    coverage_.reset();
+  }
+  on_fault_();
+}
+
 void WarningMonitor::restartLocked() {
-  ++epoch_;
+  first_epoch_ = ++epoch_;
   inputs_.pose.reset();
   inputs_.overload.reset();
   inputs_.pose_loss.reset();
@@ -351,6 +386,15 @@ std::optional<std::string> WarningMonitor::disabledBy() const {
 bool WarningMonitor::counts(const Checkpoint& checkpoint) const {
   const std::lock_guard lock(mutex_);
   return epoch_ == checkpoint.epoch && !inputs_.disabled_by && !inputs_.ended;
+}
+
+bool WarningMonitor::isToBeSwept(const Checkpoint& checkpoint) const {
+  const std::lock_guard lock(mutex_);
+  return isToBeSweptLocked(checkpoint);
+}
+
+bool WarningMonitor::isToBeSweptLocked(const Checkpoint& checkpoint) const {
+  return checkpoint.epoch >= first_epoch_ && !inputs_.disabled_by && !inputs_.ended;
 }
 
 void WarningMonitor::setLimits(const WarningLimits& limits) {

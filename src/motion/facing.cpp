@@ -13,10 +13,24 @@ namespace {
 constexpr double kLongest = 1.0;  // [s]; a surface that was not heard of for longer rests
 
 // A snapshot without a stamp is from before time went back.
+double driftOf(const Workpiece& workpiece, const PoseWithFrames& pose) {
+  const auto drift = pose.drifts.find(workpiece.frame);
+  const TriangleMesh& mesh_M = workpiece.mesh_M;
+  return drift == pose.drifts.end() ? 0.0 : drift->second.way(mesh_M.origin().norm() + mesh_M.radius());
+}
+
 double ageOf(const Workpiece& workpiece, const PoseWithFrames& pose) {
   const bool stamped = workpiece.stamp != Time();
   const double age = toSeconds(stamped ? pose.stamp - workpiece.stamp : pose.received - workpiece.received);
   return age > kLongest ? 0.0 : std::max(0.0, age);
+}
+
+// A frame that is followed has a velocity of its own; one that was placed anew has not moved.
+void updateMotion(const PoseWithFrames& pose, const std::shared_ptr<const Workpiece>& workpiece,
+                  const Eigen::Isometry3d& X_WM, SurfaceMotion& motion) {
+  const auto drift = pose.drifts.find(workpiece->frame);
+  if (drift == pose.drifts.end()) return motion.update(workpiece, X_WM, pose.stamp);
+  motion.update(workpiece, X_WM, pose.stamp, drift->second.velocity_W);
 }
 
 }  // namespace
@@ -93,7 +107,7 @@ void Facings::forgetRemoved(const Workpieces& workpieces) {
 void Facings::place(const ProximityRequest& request, const std::shared_ptr<const Workpiece>& workpiece,
                     const Eigen::Isometry3d& X_WM) {
   SurfaceMotion& motion = motions_[workpiece->id];
-  motion.update(workpiece, X_WM, request.pose.stamp);
+  updateMotion(request.pose, workpiece, X_WM, motion);
   const AllowedPieces allowed(request.tool, request.allowed, workpiece->id);
   if (allowed.all()) return;
   PlacedSurface& surface = surfaces_[surface_count_++];
@@ -109,7 +123,8 @@ void Facings::place(const ProximityRequest& request, const std::shared_ptr<const
   }
   surface.age = motion.deforms() ? ageOf(*workpiece, request.pose) : 0.0;
   surface.boxes.assign(workpiece->mesh_M.blocks());
-  rounding_ = std::max(rounding_, workpiece->mesh_M.rounding());
+  surface.drift = driftOf(*workpiece, request.pose);
+  rounding_ = std::max(rounding_, workpiece->mesh_M.rounding() + surface.drift);
   face(request, surface, allowed, X_WM);
 }
 

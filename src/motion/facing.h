@@ -24,7 +24,8 @@ struct PlacedSurface {
   const std::vector<TriangleContact>* contacts;  ///< what the sweep to the pose met; null: not known
   IntendedContact intended;
   BlockBoxes boxes;
-  double age;  ///< of its deformation at the pose, in which it has moved on [s]; 0 if it does not deform
+  double age;    ///< of its deformation at the pose, in which it has moved on [s]; 0 if it does not deform
+  double drift;  ///< bound on how far its frame may have moved since that was measured [m]
 };
 
 /// A triangle of the mesh apart from a piece of the tool, or in contact with it.

@@ -2,9 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "motion/block_boxes.h"
+#include "sweep_guard/common/stamped_pose.h"
 #include "sweep_guard/guard/workpiece.h"
 
 namespace sweep_guard_core {
@@ -14,8 +16,10 @@ namespace sweep_guard_core {
 class SurfaceMotion {
  public:
   /// Takes the snapshot and the pose of its frame for newer ones than those of the last call.
-  /// @param stamp  of the pose
-  void update(const std::shared_ptr<const Workpiece>& workpiece, const Eigen::Isometry3d& X_WM, Time stamp);
+  /// @param stamp       of the pose
+  /// @param velocity_W  of the frame: of its origin [m/s], and angular [rad/s]; empty: that between the poses
+  void update(const std::shared_ptr<const Workpiece>& workpiece, const Eigen::Isometry3d& X_WM, Time stamp,
+              const std::optional<Vector6d>& velocity_W = {});
 
   const std::shared_ptr<const Workpiece>& workpiece() const { return workpiece_; }  ///< newest snapshot
   bool moves() const { return deforms_ || frame_moves_; }
@@ -40,6 +44,7 @@ class SurfaceMotion {
   double deformingSpeed(const Eigen::Vector3d& n_M, const CenteredBox& displacement_M) const;
   void deform(const Workpiece& before, const Workpiece& now);
   void moveFrame(const Eigen::Isometry3d& X_WM, Time stamp);
+  void moveFrame(const Eigen::Isometry3d& X_WM, const Vector6d& velocity_W);
 
   std::shared_ptr<const Workpiece> workpiece_;
   bool deforms_ = false;

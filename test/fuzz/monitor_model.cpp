@@ -71,7 +71,7 @@ void MonitorModel::disagree(int id, int mesh, bool missed, const Checkpoint& ask
 }
 
 void MonitorModel::newEpoch() {
-  ++epoch_;
+  first_epoch_ = ++epoch_;
   pose_.reset();
   expected_ = {};
   alarms_ = {};
@@ -85,7 +85,9 @@ void MonitorModel::newEpoch() {
 }
 
 void MonitorModel::jump() {
+  const int first_epoch = first_epoch_;
   newEpoch();
+  first_epoch_ = first_epoch;
   if (contact_) contact_->lasts = false;
   fault();
 }
@@ -115,8 +117,19 @@ void MonitorModel::end() {
   ended_ = true;
 }
 
+// Only what it met counts.
+void MonitorModel::sweepBeforeJump(const Report& report, std::int64_t now) {
+  if (report.checkpoint.epoch < first_epoch_ || disabled_ || ended_) return;
+  for (int id = 0; id < kIds; ++id) {
+    const Tested& tested = report.tested[at(id)];
+    if (!tested.present || !tested.contact) continue;
+    contact_ = Contact{id, now, false};
+    return;
+  }
+}
+
 void MonitorModel::sweep(const Report& report, std::int64_t now) {
-  if (report.checkpoint.epoch != epoch_) return;
+  if (report.checkpoint.epoch != epoch_) return sweepBeforeJump(report, now);
   if (fault_ <= report.checkpoint.event) fault_ = 0;
   const bool over = failure_ && failure_->event <= report.checkpoint.event && !failure_->lasts;
   if (over && now - failure_->found >= kFailureShown) failure_.reset();

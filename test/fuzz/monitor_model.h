@@ -108,12 +108,14 @@ class MonitorModel {
   static size_t at(int id) { return static_cast<size_t>(id); }
   static void keepAlarm(std::optional<Alarm>& kept, const Alarm& alarm);  // the one that ended later
   void newEpoch();
+  void sweepBeforeJump(const Report& report, std::int64_t now);
   void endExpected(int id, const Clock& now);
   std::string whyNotSwept(const Clock& now) const;
   std::string whyNotCovered(const Clock& now) const;
   Level warned(const Clock& now) const;
 
   int epoch_ = 0;
+  int first_epoch_ = 0;  // from this one on, only jumps of time began epochs
   int event_ = 0;
   bool disabled_ = false;
   bool ended_ = false;

@@ -139,5 +139,111 @@ TEST(SparseMotionTest, NoPointIsFartherFromTheFewerPosesThanTheirBound) {
   }
 }
 
+// 33 ms apart, 0.3 m/s and a quarter of a turn in a second.
+FrameMotion seldomMeasured() {
+  FrameMotion motion;
+  motion.goes_on = true;
+  for (int i = 0; i < 4; ++i) {
+    Eigen::Isometry3d X = along(0.3 * 0.033 * i);
+    X.linear() = Eigen::AngleAxisd(M_PI_2 * 0.033 * i, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    motion.measured.push_back({Time(33ms * i), X});
+  }
+  return motion;
+}
+
+TEST(FrameThatGoesOnTest, IsWhereItsLastSpeedPutsIt) {
+  const auto pose = seldomMeasured().at(Time(99ms + 400ms));
+  ASSERT_TRUE(pose);
+  EXPECT_NEAR(pose->X_WT.translation().x(), 0.3 * 0.499, 1e-9);
+  const Eigen::AngleAxisd turn(pose->X_WT.linear());
+  EXPECT_NEAR(turn.angle(), M_PI_2 * 0.499, 1e-9);
+  EXPECT_FALSE(seldomMeasured().at(Time(-1ms)));
+}
+
+TEST(FrameThatGoesOnTest, ItsErrorGrowsAsSpeedTimesTime) {
+  for (const int ms : {0, 100, 1000}) {
+    const Matrix6d covariance = seldomMeasured().at(Time(99ms + std::chrono::milliseconds(ms)))->covariance;
+    EXPECT_NEAR(std::sqrt(covariance.topLeftCorner<3, 3>().trace()), 0.3e-3 * ms, 1e-9);
+    EXPECT_NEAR(std::sqrt(covariance.bottomRightCorner<3, 3>().trace()), M_PI_2 * 1e-3 * ms, 1e-9);
+  }
+}
+
+// Samples at stamps of poses may be microseconds from a transform: their rounding is no speed.
+TEST(FrameThatGoesOnTest, ItsSpeedIsThatOfTwentyMillisecondsAtLeast) {
+  FrameMotion motion = seldomMeasured();
+  FramePose newest = motion.measured.back();
+  newest.stamp += 1us;
+  newest.X_WM.translation().x() += 1e-4;
+  motion.measured.push_back(newest);
+  EXPECT_NEAR(motion.velocity()[0], 0.3, 0.01);
+  motion.measured.resize(1);
+  EXPECT_TRUE(motion.velocity().isZero(0.0));
+}
+
+TEST(FrameThatGoesOnTest, HasAPathOfAnyLength) {
+  const auto path = framePath(seldomMeasured(), Time(150ms), {predictedAlong(10ms, 0.0, 0.0), predictedAlong(1s, 0.0, 0.0)}, 1.0);
+  ASSERT_TRUE(path);
+  EXPECT_NEAR(path->points.back().X_WM.translation().x(), 0.3 * 1.15, 1e-9);
+  EXPECT_NEAR(path->points.back().deviation_bound, 0.0, 1e-9);
+}
+
+TEST(FrameThatGoesOnTest, RestsAfterItWasPlacedAnew) {
+  FrameMotion motion = seldomMeasured();
+  motion.measured.push_back({Time(99ms + 1ns), along(7.0), 0.0, /*anew=*/true});
+  EXPECT_NEAR(motion.at(Time(500ms))->X_WT.translation().x(), 7.0, 1e-12);
+}
+
+class FrameMotionStoreTest : public testing::Test {
+ protected:
+  bool add(int ms) { return store_.add("tray", {Time(std::chrono::milliseconds(ms)), along(ms)}); }
+  std::vector<FramePose> measured() const { return store_.get()->at("tray")->measured; }
+
+  FrameMotionStore store_;
+};
+
+TEST_F(FrameMotionStoreTest, SortsWhatIsAddedAndTakesEachTimeOnce) {
+  for (const int ms : {30, 10, 20, 30, 25}) EXPECT_TRUE(add(ms));
+  std::vector<double> places;
+  for (const FramePose& pose : measured()) places.push_back(pose.X_WM.translation().x());
+  EXPECT_EQ(places, (std::vector<double>{10, 20, 25, 30}));
+}
+
+TEST_F(FrameMotionStoreTest, KeepsWhatLaterPosesOfTheToolNeed) {
+  for (int ms = 0; ms <= 1000; ms += 10) add(ms);
+  EXPECT_EQ(measured().size(), 101U) << "nothing was swept yet";
+  store_.forgetBefore(Time(505ms));
+  add(1010);
+  EXPECT_EQ(measured().front().stamp, Time(500ms)) << "at 505 ms it lies after this one";
+  store_.forgetBefore(Time(2s));
+  add(1020);
+  EXPECT_LE(measured().front().stamp, Time(920ms)) << "its speed needs some";
+  EXPECT_GE(measured().front().stamp, Time(900ms));
+}
+
+TEST_F(FrameMotionStoreTest, KeepsTwoPosesHoweverOld) {
+  add(0);
+  store_.forgetBefore(Time(2s));
+  add(400);
+  add(800);
+  EXPECT_EQ(measured().size(), 2U);
+}
+
+TEST_F(FrameMotionStoreTest, SaysWhenAPoseIsDropped) {
+  for (int ms = 0; ms < 8192; ++ms) ASSERT_TRUE(add(ms));
+  EXPECT_FALSE(add(8192));
+  EXPECT_EQ(measured().size(), 8192U);
+  EXPECT_EQ(measured().front().stamp, Time(0ms));
+}
+
+TEST_F(FrameMotionStoreTest, ForgetsOnlyWhatWasAdded) {
+  add(0);
+  store_.expect("/other/", {"/other/arm"});
+  store_.set({{"/other/arm", std::make_shared<const FrameMotion>(motion())}});
+  store_.keepOnly({});
+  EXPECT_EQ(store_.get()->count("tray"), 0U);
+  EXPECT_EQ(store_.get()->count("/other/arm"), 1U);
+  EXPECT_FALSE(store_.expects("tray"));
+}
+
 }  // namespace
 }  // namespace sweep_guard_core

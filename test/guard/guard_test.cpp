@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "guard/fake_detector.h"
 #include "guard/moving_mesh.h"
@@ -323,6 +324,106 @@ TEST_F(GuardTest, ABacklogLeavesThePredictionAsItIs) {
   const PredictedPath path = backlogged.predictMotion({}, fromSeconds(1.0)).path;
   ASSERT_EQ(path.size(), expected.size());
   for (size_t i = 0; i < path.size(); ++i) EXPECT_EQ(path[i].X_WT.matrix(), expected[i].X_WT.matrix());
+}
+
+// A static transform of the table changes on the way from one pose to the next: that way counts in both places.
+class PlacedAnewTest : public GuardTest {
+ protected:
+  struct Way {
+    double from;
+    double to;
+  };
+  SweepReport sweepBoth(const Way& before, const Way& after) {
+    sweepTo(1.0, before.from);
+    passTo(1.1, before.to);
+    PoseWithFrames anew = pose(1.1, {{"table", up(after.from)}});
+    anew.anew = PlacedAnew{false, {"table"}};
+    guard_.pass(anew);
+    return sweepTo(1.1, after.to);
+  }
+};
+
+TEST_F(PlacedAnewTest, WhatIsCrossedInTheOldPlaceIsFound) {
+  const SweepReport report = sweepBoth({0.2, -0.05}, {0.5, 0.4});
+  EXPECT_TRUE(report.contact());
+  EXPECT_EQ(report.start, atSecond(1.0));
+}
+
+TEST_F(PlacedAnewTest, WhatIsCrossedInTheNewPlaceIsFound) { EXPECT_TRUE(sweepBoth({0.5, 0.4}, {0.2, -0.05}).contact()); }
+
+TEST_F(PlacedAnewTest, TheMoveItselfIsNoMotion) {
+  EXPECT_FALSE(sweepBoth({0.5, 0.4}, {-0.2, -0.3}).contact());
+  EXPECT_FALSE(sweepTo(1.2, -0.4).contact());
+  EXPECT_TRUE(sweepTo(1.3, 0.3).contact());
+}
+
+TEST_F(PlacedAnewTest, WhereTheToolTouchesInBothPlacesBothCount) {
+  const SweepReport report = sweepBoth({0.5, 0.05}, {0.05, 0.5});
+  EXPECT_TRUE(report.contact());
+  EXPECT_FALSE(sweepTo(1.2, 0.5).contact());
+}
+
+TEST_F(PlacedAnewTest, AFailedSweepIsRepeatedInBothPlaces) {
+  sweepTo(1.0, 0.2);
+  passTo(1.1, -0.05);
+  PoseWithFrames anew = pose(1.1, {{"table", up(0.5)}});
+  anew.anew = PlacedAnew{false, {"table"}};
+  guard_.pass(anew);
+  record_.failures_left = 1;
+  EXPECT_EQ(sweepTo(1.1, 0.4).failures.size(), 1U);
+  EXPECT_TRUE(sweepTo(1.2, 0.4).contact());
+}
+
+// Elsewhere the tool does not go back to the pose before.
+TEST_F(PlacedAnewTest, OtherFramesAreNotConcerned) {
+  const Workpieces both = {triangleIn("one", "shelf"), triangleIn("two", "table")};
+  reportOf(guard_, pose(1.0, {{"shelf", up(0.5)}, {"table", up(0.5)}}), both);
+  PoseWithFrames anew = pose(1.1, {{"shelf", up(-0.5)}, {"table", up(0.8)}});
+  anew.anew = PlacedAnew{false, {"table"}};
+  guard_.pass(anew);
+  EXPECT_FALSE(reportOf(guard_, pose(1.1, {{"shelf", up(0.5)}, {"table", up(0.7)}}), both).contact());
+}
+
+TEST_F(PlacedAnewTest, OnlyThePredictorOfWhatMovedForgets) {
+  const auto tool_at = [](double seconds, double x) {
+    return PoseWithFrames{atSecond(seconds), SteadyTime{}, along(x), {{"table", up(-5.0)}}};
+  };
+  const auto predicts_after = [&](const PlacedAnew& what) {
+    guard_.reset();
+    for (int i = 0; i < 5; ++i) reportOf(guard_, tool_at(1.0 + 0.01 * i, 0.01 * i), table_);
+    PoseWithFrames anew = tool_at(1.05, 0.04);
+    anew.anew = what;
+    guard_.pass(anew);
+    reportOf(guard_, tool_at(1.05, 0.05), table_);
+    return !guard_.predictMotion({}, std::chrono::milliseconds(500)).path.empty();
+  };
+  EXPECT_TRUE(predicts_after({false, {"table"}}));
+  EXPECT_FALSE(predicts_after({true, {}}));
+  reportOf(guard_, tool_at(1.06, 0.06), table_);
+  EXPECT_FALSE(guard_.predictMotion({}, std::chrono::milliseconds(500)).path.empty());
+}
+
+// A plate whose transforms come 60 ms late. The tool rests, the plate moves up through it and down again.
+TEST_F(GuardTest, SweepsOnWhenAFrameIsKnownFurther) {
+  const auto plate_at = [](double seconds, double z) { return FramePose{atSecond(seconds), up(z)}; };
+  FrameMotion plate{{plate_at(0.99, -0.5)}, {}, {}, true};
+  const auto follow = [&] {
+    guard_.follow(std::make_shared<const FrameMotions>(
+        FrameMotions{{"table", std::make_shared<const FrameMotion>(plate)}}));
+  };
+  follow();
+  SweepReport report;
+  for (int i = 0; i < 8; ++i) report = reportOf(guard_, pose(1.0 + 0.01 * i, {}), table_);
+  EXPECT_EQ(report.unplaced, table_) << "no time is known of both";
+  for (const auto& [seconds, z, contact] :
+       std::vector<std::tuple<double, double, bool>>{{1.01, -0.4, false}, {1.04, 0.1, true}, {1.06, 0.2, false}}) {
+    plate.measured.push_back(plate_at(seconds, z));
+    follow();
+    guard_.sweepOn(table_, report);
+    ASSERT_EQ(report.objects.size(), 1U);
+    EXPECT_EQ(report.contact(), contact) << "up to " << seconds << " s";
+    EXPECT_EQ(report.end, atSecond(1.07));
+  }
 }
 
 // The table turns by half a radian about its own origin, the tool rests a metre away: relative to the table it runs along

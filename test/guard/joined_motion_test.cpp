@@ -70,6 +70,36 @@ TEST_F(JoinedMotionTest, KeepsPosesOfEqualStamps) {
   EXPECT_EQ(samples[2].X_WB.translation().x(), 2.0);
 }
 
+TEST_F(JoinedMotionTest, ABodyThatIsPlacedAnewHasNoMotionThere) {
+  frame_.measured = {{at(0), along(0.0), 0.0}, {at(30), along(3.0), 0.0}};
+  motion_.add(at(0), {along(0.0)});
+  motion_.add(at(10), {along(1.0)});
+  motion_.add(at(10), {along(100.0)}, /*anew=*/true);
+  motion_.add(at(10), {along(101.0)});
+  motion_.add(at(20), {along(102.0)});
+  const auto samples = join();
+  EXPECT_EQ(stampsOf(samples), (std::vector<int>{0, 10, 10, 10, 20}));
+  for (size_t i = 0; i < samples.size(); ++i) EXPECT_EQ(samples[i].anew, i == 2) << i;
+  EXPECT_EQ(samples[2].X_WB.translation().x(), 100.0);
+}
+
+TEST_F(JoinedMotionTest, AFrameThatIsPlacedAnewIsInTheOldPlaceUpToThenAndThenInTheNewOne) {
+  for (const int ms : {0, 10, 20, 30}) motion_.add(at(ms), {along(0.0)});
+  frame_.measured = {{at(0), along(0.0), 0.0}, {at(15), along(1.5), 0.0}};
+  frame_.measured.push_back({at(15) + Duration(1), along(50.0), 0.0, /*anew=*/true});
+  frame_.measured.push_back({at(30), along(51.5), 0.0});
+  const auto samples = join();
+  EXPECT_EQ(stampsOf(samples), (std::vector<int>{0, 10, 15, 15, 20, 30}));
+  for (size_t i = 0; i < samples.size(); ++i) EXPECT_EQ(samples[i].anew, i == 3) << i;
+  EXPECT_NEAR(samples[2].X_WM.translation().x(), 1.5, 1e-12);
+  EXPECT_NEAR(samples[4].X_WM.translation().x(), 50.5, 1e-6);
+}
+
+TEST_F(JoinedMotionTest, SaysWhenAPoseIsPassedOver) {
+  for (size_t i = 0; i < PoseHistory::kMaxSize; ++i) ASSERT_TRUE(motion_.add(at(static_cast<int>(i)), {along(0.0)}));
+  EXPECT_FALSE(motion_.add(at(100000), {along(0.0)}));
+}
+
 // Whatever comes in which order, the samples are those of both motions joined at once.
 TEST_F(JoinedMotionTest, DependsOnNoOrderOfArrival) {
   Random random(3);

@@ -232,6 +232,56 @@ TEST_F(WarningMonitorTest, APoseFromBeforeAJumpOfTimeVouchesForNothing) {
   EXPECT_EQ(levelAt(1010), WarningLevel::kClear);
 }
 
+TEST_F(WarningMonitorTest, AContactFromBeforeAJumpOfTimeIsReportedAsOneThatIsOver) {
+  const WarningMonitor::Checkpoint before = monitor_.checkpoint();
+  monitor_.timeJumped("time went back");
+  monitor_.timeJumped("time went back again");
+  EXPECT_TRUE(monitor_.isToBeSwept(before));
+  EXPECT_FALSE(monitor_.counts(before));
+  monitor_.swept(reportOf(workpieces_, {3}), timestampsAt(1010), before, at(1010).steady);
+  EXPECT_EQ(levelAt(1010), WarningLevel::kContact);
+  EXPECT_NE(reasonsAt(1010) & kTimeJump, 0U) << "it vouches for nothing else";
+  EXPECT_EQ(levelAt(1511), WarningLevel::kUnknown);
+}
+
+TEST_F(WarningMonitorTest, WhatWaitsIsNotSweptAfterAnyOtherRestart) {
+  const WarningMonitor::Checkpoint before = monitor_.checkpoint();
+  monitor_.restart();
+  monitor_.timeJumped("time went back");
+  EXPECT_FALSE(monitor_.isToBeSwept(before));
+  monitor_.swept(reportOf(workpieces_, {3}), timestampsAt(1010), before, at(1010).steady);
+  EXPECT_EQ(levelAt(1010), WarningLevel::kUnknown);
+  const WarningMonitor::Checkpoint enabled = monitor_.checkpoint();
+  monitor_.disable("a test");
+  EXPECT_FALSE(monitor_.isToBeSwept(enabled));
+}
+
+TEST_F(WarningMonitorTest, AfterAStaticTransformChangedOnlyLaterPosesAndTheirPredictionsCount) {
+  ASSERT_EQ(levelAt(1010), WarningLevel::kClear);
+  const WarningMonitor::Checkpoint before = monitor_.checkpoint();
+  monitor_.placedAnew("static transform from 'table' to 'world' has changed");
+  EXPECT_EQ(reasonsAt(1010), kTimeJump | kNotCovered);
+  monitor_.swept(reportOf(workpieces_), timestampsAt(1020), before, at(1020).steady);
+  monitor_.predicted(predictionFrom(workpieces_, 1020), timestampsAt(1020), before, at(1020));
+  EXPECT_EQ(reasonsAt(1020), kTimeJump | kNotCovered);
+  sweepOnly(reportOf(workpieces_), 1030);
+  EXPECT_EQ(reasonsAt(1030), kNotCovered);
+  monitor_.predicted(predictionFrom(workpieces_, 1020), timestampsAt(1020), before, at(1031));
+  EXPECT_EQ(reasonsAt(1031), kNotCovered) << "from a pose before the change";
+  predict(predictionFrom(workpieces_, 1030), 1030);
+  EXPECT_EQ(levelAt(1031), WarningLevel::kClear);
+}
+
+TEST_F(WarningMonitorTest, PosesThatWereLeftOutForALateFrameAreUnknownUntilTheNextSweep) {
+  SweepReport report = reportOf(workpieces_);
+  report.passed_over = {"tray"};
+  sweep(report, 1010);
+  EXPECT_EQ(reasonsAt(1010), kPosesUnswept);
+  EXPECT_NE(warningOf(monitor_, at(1010)).text.find("'tray'"), std::string::npos);
+  sweep(reportOf(workpieces_), 1020);
+  EXPECT_EQ(levelAt(1020), WarningLevel::kClear);
+}
+
 // Poses may come faster than predictions: one serves until the pose that it began at is stale.
 TEST_F(WarningMonitorTest, APredictionVouchesForLaterPosesUntilItsOwnIsStale) {
   for (int ms = 1001; ms <= 1100; ++ms) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/common/stamped_pose.h"
 #include "sweep_guard/common/time.h"
 #include "sweep_guard/prediction/pose_predictor.h"
 
@@ -21,19 +22,27 @@ struct FramePose {
   /// Bound [m], >= 0, on the distance of a point of the workpieces in M, at any time since the previous pose, from where it
   /// would be if M moved as Motion says.
   double deviation_bound = 0.0;
+  /// It did not move here from the pose before: a static transform has changed.
+  bool anew = false;
 };
 
-/// How a frame moves that another guard measures and predicts, such as that of a body of its tool. Between two poses, measured
-/// or predicted, it moves as a Motion, to within their deviation bounds.
+/// How a frame moves on its own: a body of another tool, whose guard measures and predicts it, or a frame that tf measures and nobody
+/// predicts. Between two poses, measured or predicted, it moves as a Motion, to within their deviation bounds.
 struct FrameMotion {
   std::vector<FramePose> measured;  ///< at least one; stamps ascend
   Time predicted_from;              ///< stamp at which `predicted` begins; means nothing without it
   /// Its first pose is the one at `predicted_from`, without error; empty: where the frame goes is not known.
   PredictedPath predicted = {};
+  /// Without a prediction: it goes on at velocity(). The standard deviation of its error, over all axes, is speed times time.
+  bool goes_on = false;
 
   /// Returns the pose at a time: measured up to `predicted_from`, then predicted. For 0.25 s after its end, the prediction goes
-  /// on at the velocity of its last step. Empty: before the first measured pose and after that.
+  /// on at the velocity of its last step. Empty: before the first measured pose and after that, unless it `goes_on`.
   std::optional<PredictedPose> at(Time time) const;
+
+  /// Returns the velocity of its origin [m/s] and the angular velocity [rad/s], along the axes of W, over the last 20 ms or more of
+  /// the measured poses; 0 if there are not two.
+  Vector6d velocity() const;
 };
 
 /// The motions of frames by their names, none null.
@@ -68,6 +77,15 @@ class FrameMotionStore {
   /// Replaces motions. Those of frames that are not expected are left out.
   void set(const FrameMotions& motions);
 
+  /// Adds a pose of a frame that nobody predicts and that goes_on, in any order; of several at one time, the first counts. Kept is what forgetBefore() leaves: at most 8192
+  /// poses, of which the oldest but one goes first.
+  /// @returns false if a pose was dropped
+  bool add(const std::string& frame, const FramePose& pose);
+  /// Forgets what add() added of frames other than these.
+  void keepOnly(const std::set<std::string>& frames);
+  /// Forgets what was added and is needed for no pose of the tool after this stamp.
+  void forgetBefore(Time pose);
+
   std::shared_ptr<const FrameMotions> get() const;
   bool expects(const std::string& frame) const;
   /// Returns the pose of a frame at a time; empty: not known.
@@ -81,6 +99,8 @@ class FrameMotionStore {
   mutable PriorityMutex mutex_;
   std::set<std::string> frames_;
   std::shared_ptr<const FrameMotions> motions_;
+  std::set<std::string> added_;  // frames of add()
+  Time needed_from_;             // as forgetBefore()
 };
 
 }  // namespace sweep_guard_core

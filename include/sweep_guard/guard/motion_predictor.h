@@ -38,6 +38,8 @@ class MotionPredictor {
 
   /// Forgets the poses, and keeps what was learned of the operator.
   void restart();
+  /// The same of the tool frame alone: its joints go on.
+  void restartTool() { tool_.restart(); }
 
   /// Exchanges the robot for one with the same joints.
   void exchange(std::shared_ptr<const Robot>& robot) { std::swap(robot_, robot); }

@@ -2,10 +2,14 @@
 
 #include <Eigen/Geometry>
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "sweep_guard/common/stamped_pose.h"
 #include "sweep_guard/common/time.h"
+#include "sweep_guard/guard/frame_motion.h"
 #include "sweep_guard/kinematics/robot_motion.h"
 
 namespace sweep_guard_core {
@@ -18,6 +22,24 @@ struct BodyPose {
   double deviation_bound = 0.0;
 };
 
+/// What a static transform that changed has placed anew: it did not move there.
+struct PlacedAnew {
+  bool tool = false;                  ///< the tool with all its bodies
+  std::set<std::string> frames = {};  ///< frames of workpieces
+
+  bool concerns(const std::string& frame) const { return tool || frames.count(frame) != 0; }
+};
+
+/// How a frame moves that was measured earlier than a pose of the tool.
+struct FrameDrift {
+  Vector6d velocity_W = Vector6d::Zero();  ///< of its origin [m/s], and angular [rad/s]
+  Duration age{};                          ///< of its newest measured pose, at the pose of the tool; >= 0
+
+  /// Returns a bound [m] on the way of a point of the frame in this time.
+  /// @param radius  distance of the point from the origin of the frame [m], >= 0
+  double way(double radius) const;
+};
+
 /// The pose of the tool frame T, and of every mesh frame M, in the fixed frame W at one moment. All poses must
 /// be finite, with orthonormal rotations (not checked).
 struct PoseWithFrames {
@@ -28,8 +50,16 @@ struct PoseWithFrames {
       {};                             ///< [m], by name of M; a frame whose transform is missing is left out
   std::vector<BodyPose> bodies = {};  ///< of each body of the guarded tool; empty: it is one body, in T
   RobotState state = {};              ///< of the robot whose bodies these are; means nothing without any
+  /// Of this pose: what is not moved to it from the pose before, because a static transform has changed. The motion goes on
+  /// from here for these, and does not come here for the others.
+  std::optional<PlacedAnew> anew = {};
+  std::map<std::string, FrameDrift> drifts = {};  ///< of those of X_WM that are followed, see placeFollowed()
 
   BodyPose body(size_t i) const { return bodies.empty() ? BodyPose{X_WT} : bodies[i]; }
 };
+
+/// Places the frames that move on their own where they are at the stamp of a pose, as far as that is known.
+/// @param[in,out] pose  its X_WM and drifts of these frames are replaced
+void placeFollowed(const FrameMotions& frames, PoseWithFrames& pose);
 
 }  // namespace sweep_guard_core

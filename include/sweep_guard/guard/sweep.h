@@ -4,6 +4,8 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "sweep_guard/common/time.h"
@@ -125,6 +127,8 @@ struct SweepReport {
   Workpieces unplaced;               ///< workpieces that were not swept because their frame is unknown at `end`
   /// Workpieces whose sweep failed, for one body of the tool at least; `objects` has what the others met.
   std::vector<SweepFailure> failures;
+  /// Frames that come so late that more poses waited for them than are kept: the tool was swept straight past the oldest ones.
+  std::set<std::string> passed_over = {};
 
   double margin() const;           ///< largest margin of all objects [m]; 0 if there are none
   bool contact() const;            ///< the tool met an object, or it is not ruled out that it did

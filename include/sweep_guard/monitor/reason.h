@@ -15,9 +15,9 @@ enum Reason : std::uint32_t {
   kNoMesh = 1U << 5,       ///< no workpiece has arrived, or not each required one
   kMeshStale = 1U << 6,    ///< a workpiece is older than `mesh_timeout`
   kMeshInvalid = 1U << 7,  ///< a mesh or vertices were refused, or belong to no workpiece
-  kTfFail = 1U << 8,       ///< a transform is missing or not rigid
+  kTfFail = 1U << 8,       ///< a transform is missing or not rigid, or those of a frame that moves are late
   kTimeJump =
-      1U << 9,  ///< time went back, the machine was suspended or a static transform changed; no pose was swept since
+      1U << 9,  ///< time went back, the machine was suspended or a static transform that counts changed; no pose was swept since
   kDetectorFault = 1U << 10,   ///< the detector or a thread of the guard failed
   kNotSwept = 1U << 11,        ///< a workpiece was not swept at the newest pose, or not with all its updates
   kNotCovered = 1U << 12,      ///< not every workpiece is tested up to now + `considered`
@@ -25,7 +25,7 @@ enum Reason : std::uint32_t {
   kDisabled = 1U << 14,        ///< the guard is disabled, or shuts down
   kMultiPublisher = 1U << 15,  ///< several nodes publish tool poses, which is not allowed
   kPoseLoss = 1U << 16,        ///< poses were sent and did not arrive
-  kPosesUnswept = 1U << 17,    ///< a pose was dropped, or waits longer than both `overload` and the newest prediction
+  kPosesUnswept = 1U << 17,    ///< a pose was dropped or left out, or waits longer than both `overload` and the newest prediction
   kMeshDropped = 1U << 18,     ///< an update of a workpiece was dropped unread
   kWorkerHung = 1U << 19,      ///< a thread of the guard has work and makes no progress
   kSelftest = 1U << 20,        ///< the detector failed its test at the start, and was not exchanged for one that passes
@@ -38,6 +38,6 @@ enum Reason : std::uint32_t {
 constexpr std::uint32_t kDegraded = kOverload | kPoseLoss | kInsideUntested;
 
 /// Reasons with which the guard may not know every surface, or not where it is.
-constexpr std::uint32_t kSurfacesMissing = kNoMesh | kMeshInvalid | kTimeJump | kDetectorFault | kNotSwept;
+constexpr std::uint32_t kSurfacesMissing = kNoMesh | kMeshInvalid | kTfFail | kTimeJump | kDetectorFault | kNotSwept;
 
 }  // namespace sweep_guard_core

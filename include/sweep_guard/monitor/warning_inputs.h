@@ -32,6 +32,14 @@ struct WarningInputs {
     std::optional<Timestamps> newest;  ///< of its newest pose that counts
     std::string problem;               ///< why its newest pose does not count; empty: it does
   };
+  /// A frame of workpieces that moves, as transforms tell.
+  struct Frame {
+    std::string name;
+    Timestamps newest;              ///< of its newest transform
+    Duration period{};              ///< between its transforms, as a rule
+    Duration late{};                ///< its age when it was last found to be late
+    std::optional<SteadyTime> found = {};  ///< when that was; empty: never
+  };
   struct Contact {
     std::string id;
     std::vector<std::uint32_t> triangles;   ///< those not ruled out: ascending, each once; may be empty if `inside`
@@ -75,6 +83,7 @@ struct WarningInputs {
   std::optional<Timestamps> pose;  ///< newest pose that has been swept
   std::vector<Object> objects;     ///< ascending by id, each once
   std::vector<OtherTool> other_tools;
+  std::vector<Frame> frames;               ///< ascending by name, each once
   std::optional<Contact> contact;          ///< newest contact; of several in one sweep, the first reported
   std::vector<std::string> intended;       ///< workpieces that the newest sweep met as intended (Intention)
   std::vector<WorkpieceWarning> warnings;  ///< each workpiece once

@@ -17,6 +17,7 @@
 namespace sweep_guard_core {
 
 class Faults;
+class LateFrames;
 class Refusals;
 class SweptWorkpieces;
 class WorkpieceWarnings;
@@ -69,6 +70,13 @@ class WarningMonitor {
 
   /// Returns what is known of the other tools, in the order of requireTools().
   std::vector<WarningInputs::OtherTool> otherTools() const;
+
+  /// Reports the newest transform of a frame of workpieces that moves: the warning is not clear while it is late. Late is what
+  /// is older than `pose_timeout` and the period of the frame, which counts up to `pose_timeout` and is the median of its
+  /// last 16 intervals; that ends 1 s after it was last late. Does not call on_fault.
+  void frameHeard(const std::string& frame, Time stamp, const Instant& now);
+  /// Sets of which frames frameHeard() counts; the others are forgotten.
+  void setMovingFrames(const std::set<std::string>& frames);
 
   Checkpoint checkpoint() const;
 
@@ -131,7 +139,8 @@ class WarningMonitor {
   void setWorkpieces(const Workpieces& workpieces);
 
   /// Reports a sweep to a pose, and clears the faults from before the pose's checkpoint. Does nothing if the monitor
-  /// was restarted since the checkpoint. Each failure in the report becomes a new fault, kDetectorFault.
+  /// was restarted since the checkpoint; if that was by timeJumped(), a contact counts as one that is over. Each failure in the
+  /// report becomes a new fault, kDetectorFault.
   /// @param checkpoint  taken when the pose was received
   void swept(const SweepReport& report, const Timestamps& pose, const Checkpoint& checkpoint, SteadyTime now);
 
@@ -158,10 +167,14 @@ class WarningMonitor {
   /// Returns the workpieces that are acknowledged.
   std::vector<std::string> acknowledged(SteadyTime now) const;
 
-  /// Reports that what was swept does not count any more: time went back, the machine was suspended or a static
-  /// transform changed. Restarts, and keeps contacts, lasting failures and a disagreement of the detectors. kTimeJump
-  /// lasts until a pose received later is swept. A contact is shown for the hold time after it was found last.
+  /// Reports that what was swept does not count any more: time went back, or the machine was suspended. Restarts, and keeps
+  /// contacts, lasting failures and a disagreement of the detectors. kTimeJump lasts until a pose received later is swept. A
+  /// contact is shown for the hold time after it was found last.
   void timeJumped(const std::string& message);
+
+  /// Reports that a static transform that counts has changed: kTimeJump lasts until a pose received later is swept, and what
+  /// was predicted from earlier ones covers nothing.
+  void placedAnew(const std::string& message);
 
   /// Forgets poses, predictions, contacts, faults, lasting failures and a disagreement of the detectors. Keeps what
   /// concerns meshes (workpieces; refused, unread and dropped messages), a failed test of the detector, required ids
@@ -190,6 +203,10 @@ class WarningMonitor {
   /// restarted, and does not end.
   bool counts(const Checkpoint& checkpoint) const;
 
+  /// Returns whether what a pose received at this checkpoint meets is still to be reported: it counts(), or time has jumped
+  /// since and nothing else has restarted the monitor.
+  bool isToBeSwept(const Checkpoint& checkpoint) const;
+
   /// Sets the limits of later warnings; does not check them.
   void setLimits(const WarningLimits& limits);
 
@@ -213,6 +230,8 @@ class WarningMonitor {
   };
 
   void restartLocked();
+  void sweptBeforeJump(const SweepReport& report, const Checkpoint& checkpoint, SteadyTime now);
+  bool isToBeSweptLocked(const Checkpoint& checkpoint) const;
   void disableLocked(const std::string& asked_by);
   void computeLocked(const Instant& now, Warning& warning) const;
   std::string whyNotAcknowledgedLocked(const std::string& id, const Instant& now) const;
@@ -230,8 +249,11 @@ class WarningMonitor {
   mutable PriorityMutex mutex_;
   WarningLimits limits_;
   std::uint64_t epoch_ = 0;
+  std::uint64_t first_epoch_ = 0;  // from this one on, time has jumped between the epochs
+  std::uint64_t placed_anew_ = 0;  // number of the newest fault of placedAnew()
   mutable WarningInputs inputs_;          // covered_until, waiting_since and hung are those of the last warning
   const std::unique_ptr<Faults> faults_;  // these keep their part of the inputs
+  const std::unique_ptr<LateFrames> late_frames_;
   const std::unique_ptr<SweptWorkpieces> workpieces_;
   const std::unique_ptr<WorkpieceWarnings> warnings_;
   const std::unique_ptr<Refusals> refused_meshes_;
