@@ -5,6 +5,7 @@
 
 #include "soundness/enclosed.h"
 #include "soundness/joint_positives.h"
+#include "soundness/late.h"
 #include "soundness/metamorphic.h"
 #include "soundness/pairs.h"
 #include "soundness/positives.h"
@@ -93,6 +94,7 @@ const std::vector<Family>& families() {
       {"metamorphic", "triangles that must still be named in another description of the scene", runRelations,
        replayRelations},
       {"inside", "points inside and outside of solids, however their surfaces are sent", checkEnclosed, refuseReplay},
+      {"late", "sessions whose transforms come late, seldom and changed, against known contacts", checkLate, refuseReplay},
       {"sweeps", "a tool about a workpiece of 1 600 triangles, against densely sampled exact poses", runWholeSweep,
        replayWholeSweep},
   };
