@@ -250,6 +250,7 @@ bool GuardThread::workOnce() {
   next_ = 0;
   if (!dependencies_.queue.take(work_, latestPrediction())) return false;
   for (const auto& task : work_.tasks) top_->run(task);
+  if (work_.frames_moved && work_.poses.empty()) top_->run([this] { sweepOn(); });
   do {
     if (!sweepPoses()) return false;
     if (!timeToPredict()) return true;
@@ -309,13 +310,14 @@ bool GuardThread::sweepWaiting() {
 }
 
 // Returns whether the pose was swept: others are passed, or out of date.
-bool GuardThread::process(const QueuedPose& queued, const QueuedPose* next) {
-  if (!dependencies_.monitor.counts(queued.checkpoint)) return false;
+bool GuardThread::process(QueuedPose& queued, const QueuedPose* next) {
+  if (!dependencies_.monitor.isToBeSwept(queued.checkpoint)) return false;
   if (!queued.checkpoint.continues(checkpoint_)) resetMotion();
   checkpoint_ = queued.checkpoint;
-  follow();
+  const bool is_passed = queued.pose.anew || (next != nullptr && knowsAllFramesOf(queued, *next));
+  follow(queued.pose);
   pace_.received(queued.pose.received);
-  if (next != nullptr && knowsAllFramesOf(queued, *next)) {
+  if (is_passed) {
     pass(queued.pose);
     return false;
   }
@@ -328,12 +330,16 @@ bool GuardThread::process(const QueuedPose& queued, const QueuedPose* next) {
   return true;
 }
 
-void GuardThread::follow() {
-  if (dependencies_.frame_motions != nullptr) guard_.follow(dependencies_.frame_motions->get());
+void GuardThread::follow(sweep_guard_core::PoseWithFrames& pose) {
+  if (dependencies_.frame_motions == nullptr) return;
+  const auto frames = dependencies_.frame_motions->get();
+  sweep_guard_core::placeFollowed(*frames, pose);
+  guard_.follow(frames);
 }
 
 void GuardThread::pass(const sweep_guard_core::PoseWithFrames& pose) {
   guard_.pass(pose);
+  if (pose.anew) return tool_.interaction.reset();
   tool_.bodies.moved(pose);
   passed_.push_back(pose.received);
   dependencies_.scene.passed(pose);
@@ -344,18 +350,11 @@ void GuardThread::sweep(const QueuedPose& queued) {
   const SteadyTime begin = std::chrono::steady_clock::now();
   const auto report = reports_.take();
   const sweep_guard_core::Workpieces workpieces = dependencies_.workpieces.snapshot();
-  const sweep_guard_core::PoseWithFrames& before = swept_ ? swept_->pose : pose;
-  dependencies_.sampler.setWorkpieces(
-      workpieces, {/*measured=*/true, queued.checkpoint.epoch, stampedPoseOf(before), stampedPoseOf(pose)});
-  guard_.intend(dependencies_.intentions.at(begin));
+  beginSweep(queued, workpieces);
   guard_.sweep(pose, workpieces, *report);
   const SteadyTime end = std::chrono::steady_clock::now();
-  sweep_guard_core::beat();
   swept_ = queued;
-  if (!report->objects.empty()) results_.publish(*report);
-  sweep_guard_core::beat();
-  dependencies_.monitor.swept(*report, timestampsOf(pose), queued.checkpoint, end);
-  dependencies_.warnings.publishIfChanged();
+  warn(*report, queued);
 
   const SteadyTime warned = std::chrono::steady_clock::now();
   for (const SteadyTime received : passed_) dependencies_.statistics.swept(warned - received, {});
@@ -363,10 +362,48 @@ void GuardThread::sweep(const QueuedPose& queued) {
   dependencies_.statistics.swept(warned - pose.received, end - begin);
   reportFailures(report->failures);
   dependencies_.scene.swept(pose, report);
-  top_->run([&] { tool_.proximity.swept(pose, workpieces, *report, guard_); });
-  top_->run([&] { tool_.interaction.swept(pose, workpieces, *report); });
-  top_->run([&] { tool_.bodies.moved(pose); });
+  if (dependencies_.monitor.counts(queued.checkpoint)) {  // otherwise time has jumped: nobody may move by these
+    top_->run([&] { tool_.proximity.swept(pose, workpieces, *report, guard_); });
+    top_->run([&] { tool_.interaction.swept(pose, workpieces, *report); });
+    top_->run([&] { tool_.bodies.moved(pose); });
+  }
   top_->run([&] { dependencies_.touches.swept(*report, workpieces); });
+  if (dependencies_.frame_motions != nullptr) dependencies_.frame_motions->forgetBefore(pose.stamp);
+}
+
+// Against what is known further of frames, up to the newest pose. If it fails, the next sweep makes up for it.
+void GuardThread::sweepOn() {
+  if (!swept_ || !passed_.empty() || !dependencies_.monitor.counts(checkpoint_)) return;
+  follow(swept_->pose);
+  const auto report = reports_.take();
+  const sweep_guard_core::Workpieces workpieces = dependencies_.workpieces.snapshot();
+  beginSweep(*swept_, workpieces);
+  try {
+    guard_.sweepOn(workpieces, *report);
+  } catch (...) {
+    guard_.takeBack();
+    throw;
+  }
+  warn(*report, *swept_);
+  reportFailures(report->failures);
+  dependencies_.scene.swept(swept_->pose, report);
+  top_->run([&] { dependencies_.touches.swept(*report, workpieces); });
+}
+
+void GuardThread::beginSweep(const QueuedPose& queued, const sweep_guard_core::Workpieces& workpieces) {
+  const sweep_guard_core::PoseWithFrames& before = swept_ ? swept_->pose : queued.pose;
+  dependencies_.sampler.setWorkpieces(
+      workpieces, {/*measured=*/true, queued.checkpoint.epoch, stampedPoseOf(before), stampedPoseOf(queued.pose)});
+  guard_.intend(dependencies_.intentions.at(std::chrono::steady_clock::now()));
+}
+
+void GuardThread::warn(const sweep_guard_core::SweepReport& report, const QueuedPose& queued) {
+  const SteadyTime swept = std::chrono::steady_clock::now();
+  sweep_guard_core::beat();
+  if (!report.objects.empty()) results_.publish(report);
+  sweep_guard_core::beat();
+  dependencies_.monitor.swept(report, timestampsOf(queued.pose), queued.checkpoint, swept);
+  dependencies_.warnings.publishIfChanged();
 }
 
 void GuardThread::reportFailures(const std::vector<sweep_guard_core::SweepFailure>& failures) {
@@ -408,7 +445,7 @@ void GuardThread::predict() {
   const auto prediction = predictions_.take();
   const sweep_guard_core::Workpieces workpieces = dependencies_.workpieces.snapshot();
   guard_.intend(dependencies_.intentions.at(at.steady));
-  follow();
+  follow(predicted_from_.pose);
   predictInterrupted(age, workpieces, *prediction, charge.interrupted);
   const Duration took = std::chrono::steady_clock::now() - at.steady - charge.interrupted;
   dependencies_.monitor.predicted(*prediction, from, checkpoint, now(), took);

@@ -71,7 +71,7 @@ struct GuardThreadDependencies {
   TouchesPublisher& touches;
   sweep_guard_core::QuerySampler& sampler;
   sweep_guard_core::IntentionStore& intentions;
-  const sweep_guard_core::FrameMotionStore* frame_motions = nullptr;  ///< of other tools
+  sweep_guard_core::FrameMotionStore* frame_motions = nullptr;  ///< of frames that move on their own; null: none does
   std::function<std::unique_ptr<sweep_guard_core::Detector>(const Parameters&)> make_detector =
       [](const Parameters& wanted) { return makeDetector(wanted.detector.name, wanted.detector.options); };
   std::function<ToolShapes(const Parameters&)> make_shapes = [](const Parameters& wanted) {
@@ -82,7 +82,8 @@ struct GuardThreadDependencies {
 /// Runs the guard in one thread: sweeps every queued pose, sweeps a backlog of poses as one motion, predicts from the
 /// newest pose, and runs the queued tasks between two sweeps. A pose that comes during a prediction is swept between two
 /// of its sweeps, for up to 50 ms; then the prediction ends first. Predictions begin when PredictionPace says, but one
-/// begins every cycle: a pose that is not predicted from is still swept.
+/// begins every cycle: a pose that is not predicted from is still swept. A frame that is known further than at the newest pose is
+/// swept against at once.
 class GuardThread {
  public:
   /// @throws sweep_guard_core::InvalidInput if a parameter is refused
@@ -136,10 +137,13 @@ class GuardThread {
   void sweepNext();
   bool sweepWaiting();
   bool takeMore();
-  bool process(const QueuedPose& queued, const QueuedPose* next);
-  void follow();
+  bool process(QueuedPose& queued, const QueuedPose* next);
+  void follow(sweep_guard_core::PoseWithFrames& pose);
   void pass(const sweep_guard_core::PoseWithFrames& pose);
   void sweep(const QueuedPose& queued);
+  void sweepOn();
+  void beginSweep(const QueuedPose& queued, const sweep_guard_core::Workpieces& workpieces);
+  void warn(const sweep_guard_core::SweepReport& report, const QueuedPose& queued);
   void predict();
   void predictInterrupted(sweep_guard_core::Duration age, const sweep_guard_core::Workpieces& workpieces,
                           sweep_guard_core::Prediction& prediction, sweep_guard_core::Duration& interrupted);

@@ -52,7 +52,7 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       statistics_(parameters_.initial().guard.cycle),
       frames_(node, parameters_.initial().max_message_size,
               [this](const std::string& parent, const std::string& child) {
-                monitor_.timeJumped("static transform from '" + child + "' to '" + parent + "' has changed");
+                monitor_.placedAnew("static transform from '" + child + "' to '" + parent + "' has changed");
               }),
       allowed_(parameters_.initial().guard.allowed),
       workpieces_([this](const auto& workpieces) {
@@ -63,7 +63,7 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       cross_check_(parameters_, monitor_),
       guard_thread_(private_node, {parameters_, workpieces_, monitor_, statistics_, queue_, warnings_, scene_, touches_,
                                    cross_check_.sampler(), intentions_, &frame_motions_}),
-      poses_(node, parameters_, {frames_, workpieces_, monitor_, queue_, &frame_motions_}),
+      poses_(node, parameters_, {frames_, workpieces_, monitor_, queue_, frame_motions_}),
       meshes_(node, parameters_.initial(), workpieces_, monitor_),
       other_tools_(
           node, parameters_.initial(),
@@ -87,7 +87,7 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       diagnostics_(node, private_node,
                    {parameters_, poses_, meshes_, workpieces_, allowed_, monitor_, statistics_, reconfigure_server_,
                     supervisor_}),
-      watchdog_(frames_, workpieces_, monitor_, warnings_),
+      watchdog_(frames_, workpieces_, monitor_, warnings_, [this] { poses_.applyLateChanges(); }),
       peer_watch_([this, warning = sweep_guard_core::Warning()]() mutable {
         monitor_.warning(now(), warning);
         return (warning.reasons & kSilentInputs) != 0;

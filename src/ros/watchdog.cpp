@@ -14,10 +14,12 @@ constexpr auto kConsideredPeriod = std::chrono::seconds(1);
 }  // namespace
 
 Watchdog::Watchdog(Frames& frames, sweep_guard_core::WorkpieceStore& workpieces,
-                   sweep_guard_core::WarningMonitor& monitor, WarningPublisher& warnings)
+                   sweep_guard_core::WarningMonitor& monitor, WarningPublisher& warnings,
+                   const std::function<void()>& often)
     : frames_(frames), workpieces_(workpieces), monitor_(monitor), warnings_(warnings) {
-  thread_.every(kWatchPeriod, [this] {
+  thread_.every(kWatchPeriod, [this, often] {
     checkClock();
+    often();
     warnings_.publishIfDue();
   });
   thread_.every(kReflexPeriod, [this] { warnings_.publishReflex(); });

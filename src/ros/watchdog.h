@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "guard/workpiece_store.h"
 #include "ros/clock_watch.h"
 #include "ros/input/frames.h"
@@ -14,8 +16,9 @@ namespace sweep_guard_ros {
 /// thread.
 class Watchdog {
  public:
+  /// @param often  called every 10 ms
   Watchdog(Frames& frames, sweep_guard_core::WorkpieceStore& workpieces, sweep_guard_core::WarningMonitor& monitor,
-           WarningPublisher& warnings);
+           WarningPublisher& warnings, const std::function<void()>& often);
 
   void start(Supervisor& supervisor) { thread_.start(supervisor, {"warnings", sweep_guard_core::Stage::kMonitor}); }
 

@@ -30,6 +30,12 @@ bool WorkQueue::push(QueuedPose pose) {
   return !full;
 }
 
+void WorkQueue::framesMoved() {
+  const std::lock_guard lock(mutex_);
+  work_.frames_moved = true;
+  wake();
+}
+
 void WorkQueue::pushTask(std::function<void()> task) {
   {
     const std::lock_guard lock(mutex_);
@@ -55,7 +61,7 @@ bool WorkQueue::take(Work& taken, std::optional<sweep_guard_core::SteadyTime> un
   while (!takeNow(taken)) {
     if (!wait(until)) return true;
   }
-  return !taken.poses.empty() || !taken.tasks.empty();
+  return !taken.poses.empty() || !taken.tasks.empty() || taken.frames_moved;
 }
 
 // Returns false if it is too late. May return before there is work.
@@ -74,10 +80,12 @@ bool WorkQueue::wait(std::optional<sweep_guard_core::SteadyTime> until) {
 bool WorkQueue::takeNow(Work& taken) {
   const std::lock_guard lock(mutex_);
   taken.poses.clear();
+  taken.frames_moved = false;
   if (stopping_) return true;
   takePosesNow(taken.poses);
   std::swap(taken.tasks, work_.tasks);
-  waiting_ = taken.poses.empty() && taken.tasks.empty();
+  taken.frames_moved = std::exchange(work_.frames_moved, false);
+  waiting_ = taken.poses.empty() && taken.tasks.empty() && !taken.frames_moved;
   return !waiting_;
 }
 
@@ -127,7 +135,7 @@ bool WorkQueue::hasPoses() const {
 
 bool WorkQueue::hasWork() const {
   const std::lock_guard lock(mutex_);
-  return !work_.poses.empty() || !work_.tasks.empty();
+  return !work_.poses.empty() || !work_.tasks.empty() || work_.frames_moved;
 }
 
 bool WorkQueue::stopped() const {

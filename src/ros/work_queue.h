@@ -34,11 +34,15 @@ class WorkQueue {
   struct Work {
     std::vector<std::function<void()>> tasks;
     std::vector<QueuedPose> poses;
+    bool frames_moved = false;  ///< a frame that is followed is known further than when the work before was taken
   };
 
   /// Queues a pose. In a full queue it replaces the newest one.
   /// @returns false if it replaced a pose, which is then not swept
   bool push(QueuedPose pose);
+
+  /// Reports that a frame that is followed is known further.
+  void framesMoved();
 
   /// Queues a task and returns its result to come.
   /// @throws sweep_guard_core::Error if too many tasks are queued, or after stop()
@@ -54,7 +58,7 @@ class WorkQueue {
   /// @throws sweep_guard_core::Error as submit(), or if the task was dropped; and what the task throws
   void run(const std::function<void()>& task, sweep_guard_core::Duration timeout);
 
-  /// Waits for work, and takes all tasks and the oldest poses, at most 4096.
+  /// Waits for work, which may be a frame that moved, and takes all tasks and the oldest poses, at most 4096.
   /// @param[out] taken  overwritten; empty if no work came in time
   /// @param until  waits no longer; empty: as long as it takes
   /// @returns false after stop()

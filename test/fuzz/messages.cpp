@@ -41,9 +41,9 @@ class World {
         monitor_({milliseconds(100), milliseconds(500), milliseconds(500)}),
         store_([this](const sweep_guard_core::Workpieces& newest) { monitor_.setWorkpieces(newest); }),
         frames_(node_, kMaxSize,
-                [this](const auto&, const auto&) { monitor_.timeJumped("a static transform changed"); }),
+                [this](const auto&, const auto&) { monitor_.placedAnew("a static transform changed"); }),
         live_(guardParameters()),
-        poses_(node_, live_, {frames_, store_, monitor_, queue_, &frame_motions_}),
+        poses_(node_, live_, {frames_, store_, monitor_, queue_, frame_motions_}),
         other_tools_(node_, guardParameters(), {[](const auto& job) { job.run(); }, store_, frame_motions_, monitor_}),
         guard_(node_, motionParameters().guardSource()),
         motion_guard_(motionParameters().options) {}

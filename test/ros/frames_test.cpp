@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 
+#include <atomic>
 #include <thread>
 
 #include "sweep_guard/ros/conversions.h"
@@ -68,6 +69,63 @@ TEST_F(FramesTest, FreshNamesFillNoMemoryAndTakeNoRoomFromKnownFrames) {
   EXPECT_TRUE(arrives("camera", 2.0));
   EXPECT_THROW(frames_.lookup("world", "made_up_10050", {}), FrameError);
   EXPECT_NO_THROW(frames_.lookup("world", "made_up_1000", {}));
+}
+
+class StaticFramesTest : public FramesTest {
+ protected:
+  void publishStatic(const std::string& child, double x) {
+    tf2_msgs::TFMessage message;
+    message.transforms = {transformTo(child, {}, x)};
+    static_publisher_.publish(message);
+  }
+  // @returns whether so many changes are told
+  bool areTold(std::uint64_t changes) const {
+    for (int i = 0; i < 1000 && frames_.staticChanges() != changes; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    return frames_.staticChanges() == changes;
+  }
+
+  const ros::Publisher static_publisher_ = node_.advertise<tf2_msgs::TFMessage>("/tf_static", 10);
+};
+
+TEST_F(StaticFramesTest, AChangeThatCountsIsHeldBackUntilItIsApplied) {
+  publishStatic("table", 1.0);
+  ASSERT_TRUE(arrives("table", 1.0));
+  frames_.use("workpieces", "world", {"table"});
+  publishStatic("table", 2.0);
+  publishStatic("table", 2.0);  // again: nothing changes, and it stays held back
+  publishStatic("camera", 1.0);
+  ASSERT_TRUE(areTold(1));
+  ASSERT_TRUE(arrives("camera", 1.0));
+  EXPECT_EQ(frames_.lookup("world", "table", {}).translation().x(), 1.0);
+  EXPECT_FALSE(frames_.applyStaticChanges(std::chrono::hours(1)));
+  EXPECT_TRUE(frames_.applyStaticChanges());
+  EXPECT_EQ(frames_.lookup("world", "table", {}).translation().x(), 2.0);
+  EXPECT_FALSE(frames_.applyStaticChanges());
+}
+
+TEST_F(StaticFramesTest, AnyOtherChangeIsMadeAtOnceAndIsNotTold) {
+  publishStatic("camera", 1.0);
+  ASSERT_TRUE(arrives("camera", 1.0));
+  frames_.use("workpieces", "world", {"table"});
+  publishStatic("camera", 2.0);
+  EXPECT_TRUE(arrives("camera", 2.0));
+  EXPECT_TRUE(areTold(0));
+}
+
+TEST_F(FramesTest, TellsOfTransformsThatCountAndMove) {
+  std::atomic<int> told = 0;
+  const auto handle = frames_.onMove([&] { ++told; });
+  publish("table", ros::Time::now(), 1.0);
+  ASSERT_TRUE(arrives("table", 1.0));
+  EXPECT_EQ(told, 0);
+  frames_.use("workpieces", "world", {"table"});
+  publish("camera", ros::Time::now(), 1.0);
+  publish("table", ros::Time::now(), 2.0);
+  ASSERT_TRUE(arrives("table", 2.0));
+  publish("camera", ros::Time::now(), 3.0);  // its callback is after that of the table
+  ASSERT_TRUE(arrives("camera", 3.0));
+  EXPECT_EQ(told, 1);
 }
 
 }  // namespace

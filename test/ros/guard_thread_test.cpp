@@ -121,6 +121,22 @@ TEST_F(GuardThreadTest, APoseThatIsLeftWhenAPredictionGoesOnIsSweptAfterIt) {
   EXPECT_FALSE(queue_.waitingSince());
 }
 
+TEST_F(GuardThreadTest, WhatWaitsWhenTimeJumpsIsSweptAndReported) {
+  std::promise<void> go_on;
+  std::future<void> busy = queue_.submit<void>([&] { go_on.get_future().wait(); });
+  push();
+  push();
+  monitor_.timeJumped("time went back");
+  go_on.set_value();
+  busy.get();
+  const auto is_reported = [&] {
+    sweep_guard_core::Warning warning;
+    monitor_.warning(now(), warning);
+    return warning.level == sweep_guard_core::WarningLevel::kContact;
+  };
+  EXPECT_TRUE(await(is_reported));
+}
+
 TEST_F(GuardThreadTest, APredictionGoesOnAfterAPoseThatCameMeanwhileIsSwept) {
   push();
   passTheQueue();

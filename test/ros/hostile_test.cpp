@@ -424,7 +424,7 @@ TEST_F(HostileTest, AGapInTheSequenceOfPosesIsReportedAndStaysClear) {
   recover();
 }
 
-TEST_F(HostileTest, AChangedStaticTransformIsATimeJump) {
+TEST_F(HostileTest, AChangedStaticTransformIsUnknownUntilItIsSwept) {
   ros::Publisher frames = ros::NodeHandle().advertise<tf2_msgs::TFMessage>("/tf_static", 10, /*latch=*/true);
   const auto place = [&](double z) {
     tf2_msgs::TFMessage message;

@@ -26,7 +26,7 @@ const std::vector<AllowedAllocation> kAllowed = {
     {"WarningPublisher::publish", false, 5.0, "the warning and its flags, at 20 Hz or changed"},
     {"ros::MessageDeserializer::deserialize", false, 4.0, "received messages: roscpp makes each anew"},
     {"MeshVertices", false, 4.0, "jobs for the thread that stores: messages wait there, bounded in bytes"},
-    {"PoseInput::", true, 1.1, "where the frames of the workpieces are, for the guard's thread"},
+    {"MovingFrames::", true, 1.1, "where the frames of the workpieces are, for the guard's thread"},
     {"WorkpieceStore::snapshot < sweep_guard_ros::GuardThread::sweep", true, 1.1,
      "the list of the workpieces: the store goes on meanwhile"},
     {"WorkpieceStore::snapshot < sweep_guard_ros::GuardThread::predict", true, 1.1, "the same for a prediction"},

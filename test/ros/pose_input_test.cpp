@@ -29,9 +29,10 @@ TEST(PoseInputTest, NoPoseOfALongBacklogIsLost) {
   sweep_guard_core::WarningMonitor monitor(parameters.limits);
   const sweep_guard_core::WorkpieceStore workpieces;
   WorkQueue queue;
+  sweep_guard_core::FrameMotionStore frame_motions;
   Supervisor supervisor(Process::kShared);
   const LiveParameters live(parameters);
-  PoseInput input(node, live, {frames, workpieces, monitor, queue});
+  PoseInput input(node, live, {frames, workpieces, monitor, queue, frame_motions});
   const ros::Publisher publisher = node.advertise<geometry_msgs::PoseStamped>("tool_pose", 1);
   ASSERT_EQ(publisher.getNumSubscribers(), 1U);
   input.start(supervisor);

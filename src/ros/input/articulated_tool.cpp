@@ -41,11 +41,17 @@ void ArticulatedTool::add(const std::string& publisher, const sensor_msgs::Joint
 
 void ArticulatedTool::add(Time stamp, const Eigen::Isometry3d& X_WT) { timeline_.addRoot(stamp, X_WT * model_->X_TR); }
 
-bool ArticulatedTool::next(const std::function<Eigen::Isometry3d(Time)>& X_WT, std::vector<Pose>& poses) {
+bool ArticulatedTool::next(const std::function<std::optional<Eigen::Isometry3d>(Time)>& X_WT,
+                           std::vector<Pose>& poses) {
   poses.clear();
-  const auto stamp = timeline_.next(next_);
+  const auto stamp = next_stamp_ ? std::exchange(next_stamp_, {}) : timeline_.next(next_);
   if (!stamp) return false;
-  if (!root_moves_) next_.X_WR = X_WT(*stamp) * model_->X_TR;
+  if (!root_moves_) {
+    const auto placed = X_WT(*stamp);
+    if (!placed) next_stamp_ = stamp;
+    if (!placed) return false;
+    next_.X_WR = *placed * model_->X_TR;
+  }
   if (!stamp_) {
     place(*stamp, next_, poses);
   } else {
@@ -91,6 +97,7 @@ std::string ArticulatedTool::silence(Time now) const {
 
 void ArticulatedTool::reset() {
   timeline_.reset();
+  next_stamp_.reset();
   stamp_.reset();
 }
 

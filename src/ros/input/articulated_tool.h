@@ -37,11 +37,12 @@ class ArticulatedTool {
   void add(sweep_guard_core::Time stamp, const Eigen::Isometry3d& X_WT);
 
   /// Computes the poses up to the next state that is known; the last one is that of the state.
-  /// @param X_WT        returns the pose of the tool frame at a time, with ToolSource::kJointStates; if it throws, the state
-  ///                    is left out: the motion goes straight past it
+  /// @param X_WT        returns the pose of the tool frame at a time, with ToolSource::kJointStates; empty: the state waits for it.
+  ///                    If it throws, the state is left out: the motion goes straight past it
   /// @param[out] poses  overwritten
   /// @returns false if no other state is known yet
-  bool next(const std::function<Eigen::Isometry3d(sweep_guard_core::Time)>& X_WT, std::vector<Pose>& poses);
+  bool next(const std::function<std::optional<Eigen::Isometry3d>(sweep_guard_core::Time)>& X_WT,
+            std::vector<Pose>& poses);
 
   /// Returns whether the newest poses from next() go straight past positions that were dropped.
   bool leavesOut() const { return timeline_.leavesOut(); }
@@ -66,6 +67,7 @@ class ArticulatedTool {
   std::vector<sweep_guard_core::JointTimeline::Position> named_;  // in the message
   std::optional<sweep_guard_core::Time> stamp_;                   // of state_
   sweep_guard_core::RobotState state_;                            // the newest
+  std::optional<sweep_guard_core::Time> next_stamp_;              // of next_ while it waits
   sweep_guard_core::RobotState next_;
   std::vector<Eigen::Isometry3d> X_WB_;
 };

@@ -4,7 +4,6 @@
 #include <thread>
 
 #include "common/heartbeat.h"
-#include "ros/gate.h"
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/ros/conversions.h"
 
@@ -25,6 +24,15 @@ void check(const geometry_msgs::TransformStamped& transform) {
     }
   }
   fromMsg(transform.transform);
+}
+
+FrameError noTransform(const std::string& target, const std::string& source, const std::string& why) {
+  return FrameError("no transform from '" + printable(source) + "' to '" + printable(target) +
+                    "': " + printable(why, kMaxReason));
+}
+
+FrameError notRigid(const std::string& target, const std::string& source, const std::string& why) {
+  return FrameError("transform from '" + printable(source) + "' to '" + printable(target) + "' is not rigid: " + why);
 }
 
 std::string withoutSlash(const std::string& frame) { return frame.substr(frame.find_first_not_of('/') == 1 ? 1 : 0); }
@@ -54,8 +62,11 @@ void Frames::onTransforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& ev
       check(transform);
       if (!is_static) checkStamp(transform.header.stamp);
       countFrames(transform);
-      buffer_.setTransform(transform, printable(event.getPublisherName()), is_static);
-      if (is_static) checkStatic(transform);
+      const std::string publisher = printable(event.getPublisherName());
+      if (is_static && isHeldBack(transform, publisher)) continue;
+      buffer_.setTransform(transform, publisher, is_static);
+      tree_.add(withoutSlash(transform.header.frame_id), withoutSlash(transform.child_frame_id));
+      if (!is_static) moved(transform);
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
@@ -75,13 +86,72 @@ void Frames::checkStamp(const ros::Time& stamp) {
   if (!refusal.empty()) throw sweep_guard_core::InvalidInput(refusal);
 }
 
-void Frames::checkStatic(const geometry_msgs::TransformStamped& transform) {
-  const auto [known, is_new] = static_transforms_.emplace(withoutSlash(transform.child_frame_id), transform);
+// A change that counts waits until what moved before it is swept. It is told of once it waits: a pose that is received later
+// finds it.
+bool Frames::isHeldBack(const geometry_msgs::TransformStamped& transform, const std::string& publisher) {
+  const std::string child = withoutSlash(transform.child_frame_id);
+  const auto known = static_transforms_.emplace(child, transform).first;
   const bool same =
       known->second.header.frame_id == transform.header.frame_id && known->second.transform == transform.transform;
-  if (is_new || same) return;
   known->second = transform;
+  {
+    const std::lock_guard lock(changes_mutex_);
+    if (same) return held_back_.count(child) != 0;
+    if (!tree_.isUsed(child)) return false;
+    if (held_back_.empty()) held_back_since_ = std::chrono::steady_clock::now();
+    held_back_[child] = {transform, publisher};
+    ++static_changes_;
+  }
   on_static_change_(transform.header.frame_id, transform.child_frame_id);
+  return true;
+}
+
+std::uint64_t Frames::staticChanges() const {
+  const std::lock_guard lock(changes_mutex_);
+  return static_changes_;
+}
+
+bool Frames::applyStaticChanges(sweep_guard_core::Duration older_than) {
+  std::map<std::string, StaticChange> changes;
+  {
+    const std::lock_guard lock(changes_mutex_);
+    const bool waits = std::chrono::steady_clock::now() - held_back_since_ <= older_than;
+    if (held_back_.empty() || waits) return false;
+    std::swap(changes, held_back_);
+  }
+  for (const auto& [child, change] : changes) {
+    buffer_.setTransform(change.transform, change.publisher, /*is_static=*/true);
+    tree_.add(withoutSlash(change.transform.header.frame_id), child);
+  }
+  return true;
+}
+
+void Frames::use(const std::string& user, const std::string& target, const std::set<std::string>& sources) {
+  std::set<std::string> names;
+  for (const std::string& source : sources) names.insert(withoutSlash(source));
+  tree_.use(user, withoutSlash(target), names);
+}
+
+void Frames::moved(const geometry_msgs::TransformStamped& transform) {
+  std::shared_ptr<Gate<>> on_move;
+  {
+    const std::lock_guard lock(moves_mutex_);
+    on_move = on_move_;
+  }
+  if (on_move && tree_.isUsed(withoutSlash(transform.child_frame_id))) on_move->pass();
+}
+
+std::shared_ptr<void> Frames::onMove(std::function<void()> callback) {
+  const auto gate = std::make_shared<Gate<>>(std::move(callback));
+  const auto set = [this](const std::shared_ptr<Gate<>>& next) {
+    const std::lock_guard lock(moves_mutex_);
+    on_move_ = next;
+  };
+  set(gate);
+  return std::shared_ptr<void>(nullptr, [set, gate](void*) {
+    set(nullptr);
+    gate->close();
+  });
 }
 
 void Frames::countFrames(const geometry_msgs::TransformStamped& transform) {
@@ -98,11 +168,9 @@ Eigen::Isometry3d Frames::lookup(const std::string& target, const std::string& s
   try {
     return fromMsg(buffer_.lookupTransform(withoutSlash(target), withoutSlash(source), toMsg(stamp)).transform);
   } catch (const tf2::TransformException& error) {
-    throw FrameError("no transform from '" + printable(source) + "' to '" + printable(target) +
-                     "': " + printable(error.what(), kMaxReason));
+    throw noTransform(target, source, error.what());
   } catch (const sweep_guard_core::InvalidInput& error) {
-    throw FrameError("transform from '" + printable(source) + "' to '" + printable(target) +
-                     "' is not rigid: " + error.what());
+    throw notRigid(target, source, error.what());
   }
 }
 
@@ -116,6 +184,18 @@ Eigen::Isometry3d Frames::lookup(const std::string& target, const std::string& s
       if (std::chrono::steady_clock::now() >= deadline) throw;
     }
     std::this_thread::sleep_for(kPollPeriod);
+  }
+}
+
+NewestPose Frames::newestPose(const std::string& target, const std::string& source) const {
+  if (withoutSlash(target) == withoutSlash(source)) return {};
+  try {
+    const auto newest = buffer_.lookupTransform(withoutSlash(target), withoutSlash(source), ros::Time(0));
+    return {fromMsg(newest.header.stamp), fromMsg(newest.transform)};
+  } catch (const tf2::TransformException& error) {
+    throw noTransform(target, source, error.what());
+  } catch (const sweep_guard_core::InvalidInput& error) {
+    throw notRigid(target, source, error.what());
   }
 }
 

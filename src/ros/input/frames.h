@@ -4,6 +4,7 @@
 #include <tf2_ros/buffer.h>
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -13,6 +14,8 @@
 #include <string>
 
 #include "ros/bounded.h"
+#include "ros/gate.h"
+#include "ros/input/frame_tree.h"
 #include "ros/input/transform_clock.h"
 #include "ros/log_throttle.h"
 #include "ros/threads/queue_thread.h"
@@ -26,13 +29,22 @@ struct FrameError : sweep_guard_core::Error {
   using Error::Error;
 };
 
+/// The newest pose of a frame.
+struct NewestPose {
+  sweep_guard_core::Time stamp;  ///< 0: it never changes
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+};
+
 /// Listens to /tf and /tf_static, and looks up poses of tf frames. Never interpolates beyond the buffer: a transform is
 /// taken at its stamp or not at all. Any thread.
+///
+/// A change of a static transform that counts, see use(), is held back until applyStaticChanges(): until then, frames are where
+/// they were before.
 class Frames {
  public:
   /// @param max_message_size  longer messages are refused unread [bytes]
-  /// @param on_static_change  called with both frames when a transform on /tf_static differs from the one before, in the
-  ///                          thread of the listener
+  /// @param on_static_change  called with both frames when a transform on /tf_static that counts differs from the one before, in
+  ///                          the thread of the listener
   Frames(const ros::NodeHandle& node, size_t max_message_size,
          std::function<void(const std::string& parent, const std::string& child)> on_static_change);
 
@@ -49,6 +61,10 @@ class Frames {
   Eigen::Isometry3d lookup(const std::string& target, const std::string& source, sweep_guard_core::Time stamp,
                            sweep_guard_core::Duration wait) const;
 
+  /// Returns the newest pose of frame `source` in frame `target`. Does not wait.
+  /// @throws FrameError if there is none
+  NewestPose newestPose(const std::string& target, const std::string& source) const;
+
   /// Returns the stamp of the newest transform between two frames; empty if there is none; 0 if it never changes.
   std::optional<sweep_guard_core::Time> newest(const std::string& target, const std::string& source) const;
 
@@ -56,17 +72,43 @@ class Frames {
   /// Any thread.
   void checkClock();
 
-  /// Calls back after every transform, in the thread of the listener, until the handle is destroyed.
+  /// Calls back after every transform, in the thread of the listener, until the handle is destroyed. Also in the thread of
+  /// applyStaticChanges().
   std::shared_ptr<void> onChange(std::function<void()> callback);
+
+  /// Calls back after every transform that counts and moves, in the thread of the listener, until the handle is destroyed.
+  std::shared_ptr<void> onMove(std::function<void()> callback);
+
+  /// Sets that transforms between `target` and each of these frames count for a user, in place of those it has set before.
+  void use(const std::string& user, const std::string& target, const std::set<std::string>& sources);
+
+  /// Returns how many static transforms that count have changed, held back or not.
+  std::uint64_t staticChanges() const;
+  /// Applies the changes that are held back.
+  /// @param older_than  only if the first of them has waited for longer
+  /// @returns whether there were any
+  bool applyStaticChanges(sweep_guard_core::Duration older_than = sweep_guard_core::Duration(-1));
 
  private:
   void onTransforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& event, bool is_static);
   void checkStamp(const ros::Time& stamp);
-  void checkStatic(const geometry_msgs::TransformStamped& transform);
+  void moved(const geometry_msgs::TransformStamped& transform);
+  bool isHeldBack(const geometry_msgs::TransformStamped& transform, const std::string& publisher);
   void countFrames(const geometry_msgs::TransformStamped& transform);
 
   const std::function<void(const std::string&, const std::string&)> on_static_change_;
+  struct StaticChange {
+    geometry_msgs::TransformStamped transform;
+    std::string publisher;
+  };
   std::map<std::string, geometry_msgs::TransformStamped> static_transforms_;  // by child; used by the listener only
+  FrameTree tree_;
+  std::mutex moves_mutex_;  // of the next one
+  std::shared_ptr<Gate<>> on_move_;
+  mutable std::mutex changes_mutex_;                // of the next ones
+  std::map<std::string, StaticChange> held_back_;   // by child
+  sweep_guard_core::SteadyTime held_back_since_;
+  std::uint64_t static_changes_ = 0;
   std::set<std::string> known_;                                               // frames in the buffer
   LogThrottle log_;
   std::mutex clock_mutex_;  // of the next one

@@ -2,9 +2,9 @@
 
 #include <boost/make_shared.hpp>
 
-#include "common/heartbeat.h"
 #include "ros/input/future_stamp.h"
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/common/printable.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
@@ -12,9 +12,8 @@ namespace {
 
 using sweep_guard_core::Reason;
 
-constexpr auto kPoseTransformWait = std::chrono::milliseconds(20);
-constexpr auto kPauseOfWaits = std::chrono::milliseconds(200);
-constexpr size_t kMaxMissing = 1000;       // as many as workpieces
+constexpr size_t kMaxWaitingPoses = 8192;       // poses
+constexpr size_t kMaxToolFrames = 16;      // made-up names take no room from others
 constexpr size_t kMaxMessageSize = 16384;  // a frame name of any sense fits [bytes]
 constexpr const char* kPassed = "positions of joints were dropped: others were silent meanwhile";
 constexpr size_t kMaxJointsSize = 1U << 20U;  // [bytes]
@@ -42,6 +41,31 @@ std::string sourceOf(const ros::NodeHandle& node, const Parameters& parameters) 
   return parameters.articulated ? pose + " and " + joints : pose;
 }
 
+// Moves the tool with all that belongs to it by a motion of the fixed frame.
+void moveTool(const Eigen::Isometry3d& motion_W, sweep_guard_core::PoseWithFrames& pose) {
+  pose.X_WT = motion_W * pose.X_WT;
+  for (sweep_guard_core::BodyPose& body : pose.bodies) body.X_WB = motion_W * body.X_WB;
+  pose.state.X_WR = motion_W * pose.state.X_WR;
+}
+
+std::optional<Eigen::Isometry3d> poseIfKnown(const Frames& frames, const std::string& target,
+                                             const std::string& source, sweep_guard_core::Time stamp) {
+  try {
+    return frames.lookup(target, source, stamp);
+  } catch (const FrameError&) {
+    return std::nullopt;
+  }
+}
+
+std::set<std::string> movedFrames(const MovingFrames::Poses& before, const MovingFrames::Poses& now) {
+  std::set<std::string> moved;
+  for (const auto& [frame, X_WM] : now) {
+    const auto known = before.find(frame);
+    if (known != before.end() && known->second.matrix() != X_WM.matrix()) moved.insert(frame);
+  }
+  return moved;
+}
+
 }  // namespace
 
 template <typename Accept>
@@ -66,11 +90,13 @@ PoseInput::PoseInput(const ros::NodeHandle& node, const LiveParameters& live, co
       tool_frame_(live.initial().tool_frame),
       source_(sourceOf(node, live.initial())),
       allow_several_publishers_(live.initial().allow_several_publishers),
+      live_(live),
       frames_(dependencies.frames),
       workpieces_(dependencies.workpieces),
       monitor_(dependencies.monitor),
       queue_(dependencies.queue),
-      frame_motions_(dependencies.frame_motions) {
+      moving_frames_(fixed_frame_, {frames_, dependencies.frame_motions, monitor_, queue_, record_}) {
+  frames_moved_ = frames_.onMove([this] { onFramesMoved(); });
   if (live.initial().articulated) {
     articulated_ = std::make_unique<ArticulatedTool>(live);
     joints_ = subscribeBounded<sensor_msgs::JointState>(
@@ -105,19 +131,20 @@ void PoseInput::acceptJoints(const ros::MessageEvent<const sensor_msgs::JointSta
   const sweep_guard_core::Timestamps timestamps{fromMsg(msg.header.stamp), std::chrono::steady_clock::now()};
   begin();
   requireStamp(timestamps.stamp);
+  if (live_.initial().tool_source == ToolSource::kJointStates) useToolFrame(tool_frame_);
   articulated_->add(event.getPublisherName(), msg);
-  pushKnownPoses(timestamps.received);
+  pushKnownPoses(timestamps.received, checkpoint_);
   const std::string silence = articulated_->silence(timestamps.stamp);
   if (!silence.empty()) monitor_.fault(sweep_guard_core::kPoseStale, silence);
 }
 
 // Also of tool poses that came: the newest joint decides up to when all are known.
-void PoseInput::pushKnownPoses(sweep_guard_core::SteadyTime received) {
-  const auto frame = [this](sweep_guard_core::Time stamp) { return lookup(fixed_frame_, tool_frame_, stamp); };
-  while (articulated_->next(frame, known_)) {
+void PoseInput::pushKnownPoses(sweep_guard_core::SteadyTime received, const Checkpoint& checkpoint) {
+  const auto root = [this](sweep_guard_core::Time stamp) { return placeRoot(stamp); };
+  while (articulated_->next(root, known_)) {
     if (articulated_->leavesOut()) monitor_.fault(sweep_guard_core::kPosesUnswept, kPassed);
     record_.received({known_.back().stamp, received});
-    for (ArticulatedTool::Pose& pose : known_) push(received, std::move(pose));
+    for (ArticulatedTool::Pose& pose : known_) push(received, std::move(pose), checkpoint);
   }
 }
 
@@ -137,28 +164,21 @@ bool PoseInput::hasSeveralPublishers() const {
   return subscriber_ && !allow_several_publishers_ && subscriber_.getNumPublishers() > 1;
 }
 
-// Runs in the thread of the tf listener, which must not wait for transforms: only reads the pose.
+// Runs in the thread of the tf listener, or where static transforms are applied, one at a time.
 void PoseInput::onTransforms() {
   const std::optional<sweep_guard_core::Time> newest = frames_.newest(fixed_frame_, tool_frame_);
   if (newest == last_transform_) return;  // another transform has changed
   last_transform_ = newest;
   if (!newest) return;
-  try {
-    if (waiting_ >= kPosesQueued) {
-      return monitor_.fault(sweep_guard_core::kPosesUnswept, "tool poses from tf were dropped: too many wait");
-    }
-    const ReceivedPose pose{
-        {*newest, std::chrono::steady_clock::now()}, fixed_frame_, frames_.lookup(fixed_frame_, tool_frame_, *newest)};
-    ++waiting_;
-    thread_.post([this, pose] {
-      --waiting_;
-      if (!articulated_) record_.received(pose.timestamps);
-      refuseWhatFails([&] { accept(pose); });
-    });
-  } catch (const FrameError& error) {
-    record_.error(error.what(), /*refused=*/false);
-    monitor_.fault(sweep_guard_core::kTfFail, error.what());
-  }
+  if (waiting_ >= kPosesQueued)
+    return monitor_.fault(sweep_guard_core::kPosesUnswept, "tool poses from tf were dropped: too many wait");
+  const ReceivedPose pose{{*newest, std::chrono::steady_clock::now()}, tool_frame_, Eigen::Isometry3d::Identity()};
+  ++waiting_;
+  thread_.post([this, pose] {
+    --waiting_;
+    if (!articulated_) record_.received(pose.timestamps);
+    refuseWhatFails([&] { accept(pose); });
+  });
 }
 
 void PoseInput::refuse(Reason reason, const std::string& message) {
@@ -170,9 +190,11 @@ void PoseInput::refuse(Reason reason, const std::string& message) {
 // Of each input, before it is looked at.
 void PoseInput::begin() {
   const sweep_guard_core::WarningMonitor::Checkpoint checkpoint = monitor_.checkpoint();
-  waited_ = false;
   if (!checkpoint.continues(checkpoint_)) {
     previous_stamp_.reset();
+    waiting_poses_.clear();
+    root_waits_since_.reset();
+    queued_before_.X_WF.reset();
     if (articulated_) articulated_->reset();
   }
   checkpoint_ = checkpoint;
@@ -184,77 +206,155 @@ void PoseInput::begin() {
 
 void PoseInput::accept(const ReceivedPose& pose) {
   begin();
-  const auto& [stamp, received] = pose.timestamps;
+  const sweep_guard_core::Time stamp = pose.timestamps.stamp;
   requireStamp(stamp);
-  if (previous_stamp_ && stamp < *previous_stamp_) {
+  const auto previous = waiting_poses_.empty() ? previous_stamp_ : waiting_poses_.back().pose.timestamps.stamp;
+  if (previous && stamp < *previous) {
     throw PoseRefused(sweep_guard_core::kOutOfOrder, "stamp is older than the previous pose's");
   }
-  const Eigen::Isometry3d X_WT = lookup(fixed_frame_, pose.frame, stamp) * pose.X_FT;
-  previous_stamp_ = stamp;
-  if (!articulated_) return push(pose.timestamps.received, {pose.timestamps.stamp, X_WT, {}, {}});
-  articulated_->add(stamp, X_WT);
-  pushKnownPoses(received);
-  const std::string silence = articulated_->silence(stamp);
-  if (!silence.empty()) monitor_.fault(sweep_guard_core::kPoseStale, silence);
+  useToolFrame(pose.frame);
+  const WaitingPose next{pose, checkpoint_};
+  if (waiting_poses_.empty() && place(next)) return;
+  waiting_poses_.push_back(next);
+  placeWaiting();
+  if (waiting_poses_.size() <= kMaxWaitingPoses) return;
+  waiting_poses_.erase(waiting_poses_.begin() + 1);
+  monitor_.fault(sweep_guard_core::kPosesUnswept, "tool poses were left out: too many wait for the transform of '" +
+                                                      sweep_guard_core::printable(pose.frame) + "'");
 }
 
-void PoseInput::push(sweep_guard_core::SteadyTime received, ArticulatedTool::Pose pose) {
+void PoseInput::placeWaiting() {
+  bool more = true;
+  while (more && !waiting_poses_.empty()) refuseWhatFails([&] { more = placeNext(); });
+}
+
+// In their order: those after a pose that waits for its transform wait, too. Returns false if the first still waits.
+bool PoseInput::placeNext() {
+  const WaitingPose next = waiting_poses_.front();
+  waiting_poses_.pop_front();
+  if (place(next)) return true;
+  waiting_poses_.push_front(next);
+  return false;
+}
+
+// Returns false while its transform may still come.
+bool PoseInput::place(const WaitingPose& waiting) {
+  const auto& [stamp, received] = waiting.pose.timestamps;
+  const auto X_WF = place(waiting.pose.frame, stamp, received);
+  if (!X_WF) return false;
+  previous_stamp_ = stamp;
+  tool_given_in_ = waiting.pose.frame;
+  const Eigen::Isometry3d X_WT = *X_WF * waiting.pose.X_FT;
+  if (!articulated_) {
+    push(received, {stamp, X_WT, {}, {}}, waiting.checkpoint);
+    return true;
+  }
+  articulated_->add(stamp, X_WT);
+  pushKnownPoses(received, waiting.checkpoint);
+  const std::string silence = articulated_->silence(stamp);
+  if (!silence.empty()) monitor_.fault(sweep_guard_core::kPoseStale, silence);
+  return true;
+}
+
+// Returns nothing while the transform may still come. It may have come after the first look, and nobody tells of it again.
+std::optional<Eigen::Isometry3d> PoseInput::place(const std::string& frame, sweep_guard_core::Time stamp,
+                                                  sweep_guard_core::SteadyTime received) {
+  for (const bool waits : {false, true}) {
+    waits_ = waits_ || waits;
+    try {
+      return frames_.lookup(fixed_frame_, frame, stamp);
+    } catch (const FrameError& error) {
+      const auto newest = frames_.newest(fixed_frame_, frame);
+      if (!newest || *newest >= stamp) throw;
+      if (std::chrono::steady_clock::now() - received > live_.get()->limits.pose_timeout)
+        throw FrameError(std::string(error.what()) + ": it has not come within timing/pose_timeout");
+    }
+  }
+  return std::nullopt;
+}
+
+// Of a state of the joints, whose time to wait begins when it is asked for first.
+std::optional<Eigen::Isometry3d> PoseInput::placeRoot(sweep_guard_core::Time stamp) {
+  const sweep_guard_core::SteadyTime since = root_waits_since_.value_or(std::chrono::steady_clock::now());
+  root_waits_since_.reset();
+  const auto X_WT = place(tool_frame_, stamp, since);
+  if (!X_WT) root_waits_since_ = since;
+  if (X_WT) tool_given_in_ = tool_frame_;
+  return X_WT;
+}
+
+// Runs in the thread of the tf listener.
+void PoseInput::onFramesMoved() {
+  moving_frames_.sample();
+  if (!waits_.exchange(false)) return;
+  thread_.post([this] {
+    placeWaiting();
+    if (!articulated_ || !root_waits_since_) return;
+    refuseWhatFails([this] { pushKnownPoses(std::chrono::steady_clock::now(), checkpoint_); });
+  });
+}
+
+// Before what is placed by them: from then on, their changes are told.
+void PoseInput::useToolFrame(const std::string& frame) {
+  if (tool_frames_.count(frame) != 0) return;
+  if (tool_frames_.size() == kMaxToolFrames) tool_frames_.clear();
+  tool_frames_.insert(frame);
+  frames_.use("tool", fixed_frame_, tool_frames_);
+}
+
+void PoseInput::useWorkpieceFrames() {
+  const auto frames = workpieces_.frames();
+  if (frames == workpiece_frames_) return;
+  workpiece_frames_ = frames;
+  frames_.use("workpieces", fixed_frame_, *frames);
+}
+
+void PoseInput::push(sweep_guard_core::SteadyTime received, ArticulatedTool::Pose pose, const Checkpoint& checkpoint) {
   auto& [stamp, X_WT, bodies, state] = pose;
-  auto frames = locate(*workpieces_.frames(), stamp);
-  if (queue_.push({{stamp, received, X_WT, std::move(frames), std::move(bodies), std::move(state)}, checkpoint_}))
-    return;
+  useWorkpieceFrames();
+  sweep_guard_core::PoseWithFrames placed{stamp, received, X_WT, {}, std::move(bodies), std::move(state)};
+  placed.X_WM = moving_frames_.locate(*workpiece_frames_, stamp);
+  if (frames_.staticChanges() != static_changes_) pushPlacedAnew(placed, checkpoint);
+  push(std::move(placed), checkpoint);
+}
+
+// Nobody knows when the static transforms changed: the way from the pose before to this one is swept where things were, then where
+// they are. The transforms are applied between the two.
+void PoseInput::pushPlacedAnew(sweep_guard_core::PoseWithFrames& pose, const Checkpoint& checkpoint) {
+  static_changes_ = frames_.staticChanges();
+  const QueuedBefore before = queued_before_;
+  const auto X_WF = poseIfKnown(frames_, fixed_frame_, tool_given_in_, pose.stamp);
+  if (moving_frames_.applyStaticChanges()) push(pose, checkpoint);
+  const auto X_WF_anew = poseIfKnown(frames_, fixed_frame_, tool_given_in_, pose.stamp);
+  if (X_WF && X_WF_anew) moveTool(*X_WF_anew * X_WF->inverse(), pose);
+  pose.X_WM = moving_frames_.resting(*workpiece_frames_);
+  if (before.X_WF) pushBefore(before, pose, checkpoint);
+}
+
+// The pose before, where it is now. The frames that were placed anew do not move between the two.
+void PoseInput::pushBefore(const QueuedBefore& before, sweep_guard_core::PoseWithFrames& pose,
+                           const Checkpoint& checkpoint) {
+  const auto X_WF = poseIfKnown(frames_, fixed_frame_, before.frame, before.pose.stamp);
+  if (!X_WF) return;
+  sweep_guard_core::PoseWithFrames anew = before.pose;
+  anew.stamp = pose.stamp;
+  anew.received = pose.received;
+  anew.X_WM = pose.X_WM;
+  anew.anew = sweep_guard_core::PlacedAnew{X_WF->matrix() != before.X_WF->matrix(),
+                                           movedFrames(before.pose.X_WM, pose.X_WM)};
+  for (const std::string& frame : anew.anew->frames) pose.drifts[frame] = {};
+  moveTool(*X_WF * before.X_WF->inverse(), anew);
+  push(std::move(anew), checkpoint);
+}
+
+void PoseInput::push(sweep_guard_core::PoseWithFrames pose, const Checkpoint& checkpoint) {
+  queued_before_.X_WF = poseIfKnown(frames_, fixed_frame_, tool_given_in_, pose.stamp);
+  queued_before_.frame = tool_given_in_;
+  queued_before_.pose = pose;
+  if (queue_.push({std::move(pose), checkpoint})) return;
   monitor_.fault(sweep_guard_core::kPosesUnswept, "tool poses were dropped: too many wait to be swept");
 }
 
-std::map<std::string, Eigen::Isometry3d> PoseInput::locate(const std::set<std::string>& mesh_frames,
-                                                           sweep_guard_core::Time stamp) {
-  std::map<std::string, Eigen::Isometry3d> X_WM;
-  for (const std::string& frame : mesh_frames) {
-    sweep_guard_core::beat();
-    if (frame_motions_ != nullptr && frame_motions_->expects(frame)) {
-      if (const auto known = frame_motions_->at(frame, stamp)) X_WM[frame] = *known;
-      continue;
-    }
-    try {
-      X_WM[frame] = lookup(fixed_frame_, frame, stamp);
-    } catch (const FrameError& error) {
-      const std::string message = "workpieces in '" + frame + "' not swept: " + error.what();
-      record_.error(message, /*refused=*/false);
-      monitor_.fault(sweep_guard_core::kTfFail, error.what());
-      log_.error(frame, message);
-    }
-  }
-  return X_WM;
-}
-
-Eigen::Isometry3d PoseInput::lookup(const std::string& target, const std::string& source,
-                                    sweep_guard_core::Time stamp) {
-  try {
-    return frames_.lookup(target, source, stamp);
-  } catch (const FrameError&) {
-    return waitFor(target, source, stamp);
-  }
-}
-
-// Waits for a late transform, but not again while its publisher is silent, once for each pose, and seldom for frames that
-// tf does not know: waiting would delay every pose.
-Eigen::Isometry3d PoseInput::waitFor(const std::string& target, const std::string& source,
-                                     sweep_guard_core::Time stamp) {
-  const std::pair frames(target, source);
-  const auto newest = frames_.newest(target, source);
-  const auto missed = missing_.find(frames);
-  const bool silent = missed != missing_.end() && missed->second == newest;
-  const sweep_guard_core::SteadyTime begin = std::chrono::steady_clock::now();
-  const bool waits = !silent && !waited_ && (newest || begin >= no_wait_until_);
-  try {
-    return frames_.lookup(target, source, stamp, waits ? kPoseTransformWait : sweep_guard_core::Duration(0));
-  } catch (const FrameError&) {
-    waited_ = waited_ || waits;
-    if (waits && !newest) no_wait_until_ = begin + kPauseOfWaits;
-    if (missing_.size() >= kMaxMissing) missing_.clear();
-    if (newest) missing_[frames] = frames_.newest(target, source);
-    throw;
-  }
-}
+void PoseInput::applyLateChanges() { moving_frames_.applyStaticChanges(live_.get()->limits.pose_timeout); }
 
 }  // namespace sweep_guard_ros

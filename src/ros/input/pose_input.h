@@ -3,6 +3,7 @@
 #include <geometry_msgs/PoseStamped.h>
 
 #include <atomic>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -16,6 +17,7 @@
 #include "ros/bounded.h"
 #include "ros/input/articulated_tool.h"
 #include "ros/input/frames.h"
+#include "ros/input/moving_frames.h"
 #include "ros/log_throttle.h"
 #include "ros/parameters/parameters.h"
 #include "ros/threads/queue_thread.h"
@@ -29,12 +31,12 @@ struct PoseInputDependencies {
   const sweep_guard_core::WorkpieceStore& workpieces;
   sweep_guard_core::WarningMonitor& monitor;
   WorkQueue& queue;
-  const sweep_guard_core::FrameMotionStore* frame_motions = nullptr;  ///< of frames that tf does not have
+  sweep_guard_core::FrameMotionStore& frame_motions;
 };
 
 /// Takes tool poses from the topic `tool_pose` or from tf, and positions of joints from `joint_states`, refuses bad ones,
-/// looks up the frames of the workpieces, and queues the poses in their order. Has its own thread, because a transform may
-/// be up to 20 ms late.
+/// places them and the frames of the workpieces, and queues the poses in their order. A pose whose own transform is late waits for it,
+/// for up to `timing/pose_timeout`, and those that come after it wait, too.
 class PoseInput {
  public:
   PoseInput(const ros::NodeHandle& node, const LiveParameters& live, const PoseInputDependencies& dependencies);
@@ -46,11 +48,26 @@ class PoseInput {
   std::optional<std::uint32_t> publishers() const;       ///< of the topic; empty for tf
   std::uint64_t lost() const { return lost_; }           ///< poses that were sent and did not arrive, by header.seq
 
+  /// Applies static transforms that have changed though no pose has come for `timing/pose_timeout`. Any thread.
+  void applyLateChanges();
+
  private:
+  using Checkpoint = sweep_guard_core::WarningMonitor::Checkpoint;
+
   struct ReceivedPose {
     sweep_guard_core::Timestamps timestamps;
     std::string frame;
     Eigen::Isometry3d X_FT;
+  };
+  struct WaitingPose {
+    ReceivedPose pose;
+    Checkpoint checkpoint;
+  };
+  // A pose that was queued, and where the frame was that it was given in. Keeps its memory from one pose to the next.
+  struct QueuedBefore {
+    sweep_guard_core::PoseWithFrames pose;
+    std::string frame;
+    std::optional<Eigen::Isometry3d> X_WF;  // empty: there is none
   };
 
   void onMessage(const ros::MessageEvent<const geometry_msgs::PoseStamped>& event);
@@ -62,43 +79,57 @@ class PoseInput {
   void accept(const ReceivedPose& pose);
   void acceptJoints(const ros::MessageEvent<const sensor_msgs::JointState>& event);
   void begin();
-  void pushKnownPoses(sweep_guard_core::SteadyTime received);
-  void push(sweep_guard_core::SteadyTime received, ArticulatedTool::Pose pose);
-  std::map<std::string, Eigen::Isometry3d> locate(const std::set<std::string>& mesh_frames,
-                                                  sweep_guard_core::Time stamp);
-  Eigen::Isometry3d lookup(const std::string& target, const std::string& source, sweep_guard_core::Time stamp);
-  Eigen::Isometry3d waitFor(const std::string& target, const std::string& source, sweep_guard_core::Time stamp);
+  void placeWaiting();
+  bool placeNext();
+  bool place(const WaitingPose& waiting);
+  std::optional<Eigen::Isometry3d> place(const std::string& frame, sweep_guard_core::Time stamp,
+                                         sweep_guard_core::SteadyTime received);
+  std::optional<Eigen::Isometry3d> placeRoot(sweep_guard_core::Time stamp);
+  void onFramesMoved();
+  void useToolFrame(const std::string& frame);
+  void useWorkpieceFrames();
+  void pushKnownPoses(sweep_guard_core::SteadyTime received, const Checkpoint& checkpoint);
+  void push(sweep_guard_core::SteadyTime received, ArticulatedTool::Pose pose, const Checkpoint& checkpoint);
+  void pushPlacedAnew(sweep_guard_core::PoseWithFrames& pose, const Checkpoint& checkpoint);
+  void pushBefore(const QueuedBefore& before, sweep_guard_core::PoseWithFrames& pose, const Checkpoint& checkpoint);
+  void push(sweep_guard_core::PoseWithFrames pose, const Checkpoint& checkpoint);
   void refuse(sweep_guard_core::Reason reason, const std::string& message);
 
   const std::string fixed_frame_;
   const std::string tool_frame_;
   const std::string source_;
   const bool allow_several_publishers_;
+  const LiveParameters& live_;
   Frames& frames_;
   const sweep_guard_core::WorkpieceStore& workpieces_;
   sweep_guard_core::WarningMonitor& monitor_;
   WorkQueue& queue_;
-  const sweep_guard_core::FrameMotionStore* const frame_motions_;
 
-  sweep_guard_core::WarningMonitor::Checkpoint checkpoint_;  // of the previous pose
+  Checkpoint checkpoint_;  // of the previous input
   std::optional<sweep_guard_core::Time> previous_stamp_;
+  std::deque<WaitingPose> waiting_poses_;                           // for the transform of the first
+  std::optional<sweep_guard_core::SteadyTime> root_waits_since_;    // of the next state of the joints
+  std::atomic<bool> waits_ = false;                                 // any of these
+  std::set<std::string> tool_frames_;                               // that poses were given in
+  std::string tool_given_in_;                                       // the newest of these
+  std::shared_ptr<const std::set<std::string>> workpiece_frames_;   // that are in use
+  QueuedBefore queued_before_;
+  std::uint64_t static_changes_ = 0;                                // before that pose
   std::optional<sweep_guard_core::Time> last_transform_;  // used by the tf listener's thread only
-  // Missing transforms by target and source, each with the stamp of the newest one that there was.
-  std::map<std::pair<std::string, std::string>, std::optional<sweep_guard_core::Time>> missing_;
-  bool waited_ = false;                         // without success, for a transform of the newest pose
-  sweep_guard_core::SteadyTime no_wait_until_;  // for frames that tf does not know
   std::string publisher_;                       // of the previous pose
   std::uint32_t sequence_ = 0;                  // of the previous pose
   std::atomic<std::uint64_t> lost_ = 0;
   std::atomic<size_t> waiting_ = 0;  // poses from tf
   LogThrottle log_;
   sweep_guard_core::InputRecord record_;
+  MovingFrames moving_frames_;
 
   std::unique_ptr<ArticulatedTool> articulated_;  // null for a rigid tool
   std::vector<ArticulatedTool::Pose> known_;      // up to the newest state
 
   QueueThread thread_;  // before the subscribers, which use its queue
   std::shared_ptr<void> transforms_changed_;
+  std::shared_ptr<void> frames_moved_;
   BoundedSubscriber subscriber_;
   BoundedSubscriber joints_;
 };

@@ -226,8 +226,10 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
       read.live().number("proximity/reach", 0.1, {0.0, 10.0, "m"},
                          "~proximity has planes for all surfaces that are nearer to the tool; 0: it is not published.");
   parameters.interaction = readInteraction(read);
-  parameters.joint_timeout = toDuration(read.live().number("timing/pose_timeout", 0.1, {0.01, 2.0, "s"},
-                                                           "An older tool pose makes the warning UNKNOWN."));
+  parameters.joint_timeout = toDuration(read.live().number(
+      "timing/pose_timeout", 0.1, {0.01, 2.0, "s"},
+      "An older tool pose makes the warning UNKNOWN. So does a workpiece whose frame moves, where its newest transform "
+      "is older by more than one period of the transforms."));
   parameters.limits.pose_timeout = parameters.joint_timeout;
   for (const auto& [joint, timeout] : parameters.joint_timeouts)
     parameters.limits.pose_timeout = std::max(parameters.limits.pose_timeout, timeout);

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <set>
+#include <string>
+
+namespace sweep_guard_ros {
+
+/// Knows on which frame each frame stands, as transforms say, and which of these transforms count. Names are without a slash before
+/// them. Any thread.
+class FrameTree {
+ public:
+  /// Takes note of a transform.
+  void add(const std::string& parent, const std::string& child);
+
+  /// Sets that transforms between `target` and each of these frames count, in place of those that one user has set before.
+  /// @param user  name of the one who uses them
+  void use(const std::string& user, const std::string& target, const std::set<std::string>& sources);
+
+  /// Returns whether the transform to a frame from the one it stands on lies between frames that use() names.
+  bool isUsed(const std::string& child) const;
+
+ private:
+  struct Uses {
+    std::string target;
+    std::set<std::string> sources;
+  };
+
+  void findUsed() const;
+
+  mutable std::mutex mutex_;
+  std::map<std::string, std::string> parents_;  // by child
+  std::map<std::string, Uses> uses_;            // by user
+  mutable bool outdated_ = false;               // `used_`
+  mutable std::set<std::string> used_;          // children
+};
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,150 @@
+#include "ros/input/moving_frames.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "common/heartbeat.h"
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard_core::Time;
+
+constexpr size_t kMaxWanted = 8192;  // as many poses of the tool wait
+
+}  // namespace
+
+MovingFrames::Poses MovingFrames::locate(const std::set<std::string>& frames, Time stamp) {
+  const std::lock_guard lock(mutex_);
+  Poses X_WM;
+  std::set<std::string> moving;
+  for (const std::string& frame : frames) {
+    sweep_guard_core::beat();
+    if (dependencies_.frame_motions.expects(frame)) continue;
+    try {
+      const NewestPose newest = dependencies_.frames.newestPose(fixed_frame_, frame);
+      if (newest.stamp == Time()) {
+        X_WM[frame] = newest.X;
+        continue;
+      }
+      follow(frame, newest);
+      if (stamp < newest.stamp) sampleAt(frame, stamp);
+      moving.insert(frame);
+    } catch (const FrameError& error) {
+      report(frame, error);
+    }
+  }
+  keepOnly(moving);
+  if (moving.empty()) return X_WM;
+  wanted_.push_back(stamp);
+  forgetWanted();
+  return X_WM;
+}
+
+MovingFrames::Poses MovingFrames::resting(const std::set<std::string>& frames) const {
+  Poses X_WM;
+  for (const std::string& frame : frames) {
+    try {
+      const NewestPose newest = dependencies_.frames.newestPose(fixed_frame_, frame);
+      if (newest.stamp == Time()) X_WM[frame] = newest.X;
+    } catch (const FrameError&) {  // the next pose reports it
+    }
+  }
+  return X_WM;
+}
+
+void MovingFrames::sample() {
+  const std::lock_guard lock(mutex_);
+  bool moved = false;
+  for (const auto& [frame, followed] : followed_) moved = follow(frame) || moved;
+  if (!moved) return;
+  forgetWanted();
+  dependencies_.queue.framesMoved();
+}
+
+bool MovingFrames::applyStaticChanges(sweep_guard_core::Duration older_than) {
+  const std::lock_guard lock(mutex_);
+  if (!dependencies_.frames.applyStaticChanges(older_than)) return false;
+  ++changes_;
+  for (const auto& [frame, followed] : followed_) follow(frame);
+  return true;
+}
+
+bool MovingFrames::follow(const std::string& frame) {
+  try {
+    return follow(frame, dependencies_.frames.newestPose(fixed_frame_, frame));
+  } catch (const FrameError&) {
+    return false;  // the next pose reports it
+  }
+}
+
+// Returns whether it is known further.
+bool MovingFrames::follow(const std::string& frame, const NewestPose& newest) {
+  const auto [known, is_new] = followed_.emplace(frame, Followed{newest, changes_});
+  Followed& followed = known->second;
+  if (!is_new && newest.stamp < followed.newest.stamp) {  // time went back
+    std::set<std::string> others;
+    for (const auto& [other, state] : followed_) {
+      if (other != frame) others.insert(other);
+    }
+    dependencies_.frame_motions.keepOnly(others);
+    wanted_.clear();
+  } else if (!is_new) {
+    if (followed.changes != changes_) placeAnew(frame, followed);
+    if (newest.stamp == followed.newest.stamp) return false;
+    for (const Time stamp : wanted_) {
+      if (followed.newest.stamp < stamp && stamp < newest.stamp) sampleAt(frame, stamp);
+    }
+  }
+  followed = {newest, changes_};
+  add(frame, {newest.stamp, newest.X});
+  dependencies_.monitor.frameHeard(frame, newest.stamp, now());
+  return true;
+}
+
+// From its newest pose on, it is where the changed transforms say: between the two there is no time to move.
+void MovingFrames::placeAnew(const std::string& frame, Followed& followed) {
+  followed.changes = changes_;
+  const Eigen::Isometry3d X = dependencies_.frames.lookup(fixed_frame_, frame, followed.newest.stamp);
+  if (X.matrix() == followed.newest.X.matrix()) return;
+  add(frame, {followed.newest.stamp + std::chrono::nanoseconds(1), X, 0.0, /*anew=*/true});
+}
+
+// tf may have forgotten it, or not know it yet: then the frame moves straight past it.
+void MovingFrames::sampleAt(const std::string& frame, Time stamp) {
+  try {
+    add(frame, {stamp, dependencies_.frames.lookup(fixed_frame_, frame, stamp)});
+  } catch (const FrameError&) {
+  }
+}
+
+void MovingFrames::add(const std::string& frame, const sweep_guard_core::FramePose& pose) {
+  if (dependencies_.frame_motions.add(frame, pose)) return;
+  dependencies_.monitor.fault(sweep_guard_core::kPosesUnswept,
+                              "transforms of '" + frame + "' were left out: too many wait to be swept");
+}
+
+void MovingFrames::keepOnly(const std::set<std::string>& moving) {
+  const auto is_one = [&](const auto& followed) { return moving.count(followed.first) != 0; };
+  if (moving.size() == followed_.size() && std::all_of(followed_.begin(), followed_.end(), is_one)) return;
+  for (auto followed = followed_.begin(); followed != followed_.end();)
+    followed = is_one(*followed) ? std::next(followed) : followed_.erase(followed);
+  dependencies_.frame_motions.keepOnly(moving);
+  dependencies_.monitor.setMovingFrames(moving);
+}
+
+void MovingFrames::report(const std::string& frame, const FrameError& error) {
+  const std::string message = "workpieces in '" + frame + "' not swept: " + error.what();
+  dependencies_.record.error(message, /*refused=*/false);
+  dependencies_.monitor.fault(sweep_guard_core::kTfFail, error.what());
+  log_.error(frame, message);
+}
+
+void MovingFrames::forgetWanted() {
+  const auto is_known = [&](const auto& followed) { return wanted_.front() <= followed.second.newest.stamp; };
+  while (!wanted_.empty() && std::all_of(followed_.begin(), followed_.end(), is_known)) wanted_.pop_front();
+  while (wanted_.size() > kMaxWanted) wanted_.pop_front();
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <set>
+#include <string>
+
+#include "monitor/input_record.h"
+#include "ros/input/frames.h"
+#include "ros/log_throttle.h"
+#include "ros/work_queue.h"
+#include "sweep_guard/guard/frame_motion.h"
+#include "sweep_guard/monitor/warning_monitor.h"
+
+namespace sweep_guard_ros {
+
+struct MovingFramesDependencies {
+  Frames& frames;
+  sweep_guard_core::FrameMotionStore& frame_motions;
+  sweep_guard_core::WarningMonitor& monitor;
+  WorkQueue& queue;
+  sweep_guard_core::InputRecord& record;  ///< of errors
+};
+
+/// Places the frames of the workpieces. One that rests is where it is. One that moves is followed: sampled at the stamps of poses,
+/// and whenever its newest pose changes, so that no pose waits for a transform that comes late or seldom.
+class MovingFrames {
+ public:
+  MovingFrames(const std::string& fixed_frame, const MovingFramesDependencies& dependencies)
+      : fixed_frame_(fixed_frame), dependencies_(dependencies) {}
+
+  using Poses = std::map<std::string, Eigen::Isometry3d>;  ///< X_WM, by frame
+
+  /// Returns the poses of those frames that rest, and follows the others. Reports those that tf does not know.
+  /// @param stamp  of the pose that they are for; not earlier than before, but after time went back
+  Poses locate(const std::set<std::string>& frames, sweep_guard_core::Time stamp);
+  /// Returns the poses of those frames that rest.
+  Poses resting(const std::set<std::string>& frames) const;
+
+  /// Samples the frames whose newest pose has changed, and reports them to the queue. Any thread.
+  void sample();
+
+  /// Applies the static transforms that are held back, as Frames. Any thread.
+  bool applyStaticChanges(sweep_guard_core::Duration older_than = sweep_guard_core::Duration(-1));
+
+ private:
+  struct Followed {
+    NewestPose newest;
+    std::uint64_t changes;  // of static transforms, at that time
+  };
+
+  bool follow(const std::string& frame);
+  bool follow(const std::string& frame, const NewestPose& newest);
+  void placeAnew(const std::string& frame, Followed& followed);
+  void sampleAt(const std::string& frame, sweep_guard_core::Time stamp);
+  void add(const std::string& frame, const sweep_guard_core::FramePose& pose);
+  void keepOnly(const std::set<std::string>& moving);
+  void report(const std::string& frame, const FrameError& error);
+  void forgetWanted();
+
+  const std::string fixed_frame_;
+  const MovingFramesDependencies dependencies_;
+  std::mutex mutex_;
+  std::map<std::string, Followed> followed_;
+  std::deque<sweep_guard_core::Time> wanted_;  // stamps of poses at which one of them is not known yet
+  std::uint64_t changes_ = 0;                  // of static transforms that were applied
+  LogThrottle log_;
+};
+
+}  // namespace sweep_guard_ros
