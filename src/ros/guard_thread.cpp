@@ -335,6 +335,14 @@ void GuardThread::follow(sweep_guard_core::PoseWithFrames& pose) {
   const auto frames = dependencies_.frame_motions->get();
   sweep_guard_core::placeFollowed(*frames, pose);
   guard_.follow(frames);
+  frames_known_to_ = pose.stamp;
+  for (const auto& [frame, motion] : *frames)
+    frames_known_to_ = std::min(frames_known_to_, motion->measured.back().stamp);
+}
+
+// What is swept of frames is needed no more.
+void GuardThread::forgetFrames() {
+  if (dependencies_.frame_motions != nullptr) dependencies_.frame_motions->forgetBefore(frames_known_to_);
 }
 
 void GuardThread::pass(const sweep_guard_core::PoseWithFrames& pose) {
@@ -368,7 +376,7 @@ void GuardThread::sweep(const QueuedPose& queued) {
     top_->run([&] { tool_.bodies.moved(pose); });
   }
   top_->run([&] { dependencies_.touches.swept(*report, workpieces); });
-  if (dependencies_.frame_motions != nullptr) dependencies_.frame_motions->forgetBefore(pose.stamp);
+  forgetFrames();
 }
 
 // Against what is known further of frames, up to the newest pose. If it fails, the next sweep makes up for it.
@@ -388,6 +396,7 @@ void GuardThread::sweepOn() {
   reportFailures(report->failures);
   dependencies_.scene.swept(swept_->pose, report);
   top_->run([&] { dependencies_.touches.swept(*report, workpieces); });
+  forgetFrames();
 }
 
 void GuardThread::beginSweep(const QueuedPose& queued, const sweep_guard_core::Workpieces& workpieces) {

@@ -293,7 +293,7 @@ class LateSession {
     swept_ = now;
     passed_ = false;
     take(at);
-    store_.forgetBefore(stamp);
+    store_.forgetBefore(std::min(stamp, tray.stamps[next_transform_ - 1]));
   }
 
   PoseWithFrames pose(Time stamp, const Isometry3d& X_WT, bool changed) {
