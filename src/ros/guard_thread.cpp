@@ -23,6 +23,7 @@ using sweep_guard_core::Timestamps;
 
 constexpr Duration kPauseAfterFailure = std::chrono::milliseconds(10);  // before a failed sweep is tried again
 constexpr Duration kMaxInterrupted = std::chrono::milliseconds(50);     // from the begin of a prediction on
+constexpr Duration kSilent = std::chrono::seconds(4);                   // of a frame: others do not wait for it
 constexpr Duration kMaxWait = std::chrono::milliseconds(500);  // for a sweep to end, before a change or a reset
 
 // A passed pose is swept as a part of the motion to the next one.
@@ -315,7 +316,7 @@ bool GuardThread::process(QueuedPose& queued, const QueuedPose* next) {
   if (!queued.checkpoint.continues(checkpoint_)) resetMotion();
   checkpoint_ = queued.checkpoint;
   const bool is_passed = queued.pose.anew || (next != nullptr && knowsAllFramesOf(queued, *next));
-  follow(queued.pose);
+  frames_known_to_ = follow(queued.pose);
   pace_.received(queued.pose.received);
   if (is_passed) {
     pass(queued.pose);
@@ -330,14 +331,19 @@ bool GuardThread::process(QueuedPose& queued, const QueuedPose* next) {
   return true;
 }
 
-void GuardThread::follow(sweep_guard_core::PoseWithFrames& pose) {
-  if (dependencies_.frame_motions == nullptr) return;
+// Returns the time up to which all frames that are followed are known, but for those that are silent: at most that of the pose.
+sweep_guard_core::Time GuardThread::follow(sweep_guard_core::PoseWithFrames& pose) {
+  sweep_guard_core::Time known_to = pose.stamp;
+  if (dependencies_.frame_motions == nullptr) return known_to;
   const auto frames = dependencies_.frame_motions->get();
   sweep_guard_core::placeFollowed(*frames, pose);
   guard_.follow(frames);
-  frames_known_to_ = pose.stamp;
-  for (const auto& [frame, motion] : *frames)
-    frames_known_to_ = std::min(frames_known_to_, motion->measured.back().stamp);
+  for (const auto& [frame, motion] : *frames) {
+    const sweep_guard_core::Time newest = motion->measured.back().stamp;
+    const bool counts = motion->goes_on && pose.stamp - newest < kSilent;
+    if (counts) known_to = std::min(known_to, newest);
+  }
+  return known_to;
 }
 
 // What is swept of frames is needed no more.
@@ -381,8 +387,9 @@ void GuardThread::sweep(const QueuedPose& queued) {
 
 // Against what is known further of frames, up to the newest pose. If it fails, the next sweep makes up for it.
 void GuardThread::sweepOn() {
-  if (!swept_ || !passed_.empty() || !dependencies_.monitor.counts(checkpoint_)) return;
-  follow(swept_->pose);
+  const bool waits = swept_ && passed_.empty() && frames_known_to_ < swept_->pose.stamp;
+  if (!waits || !dependencies_.monitor.counts(checkpoint_)) return;
+  frames_known_to_ = follow(swept_->pose);
   const auto report = reports_.take();
   const sweep_guard_core::Workpieces workpieces = dependencies_.workpieces.snapshot();
   beginSweep(*swept_, workpieces);

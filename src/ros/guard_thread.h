@@ -138,7 +138,7 @@ class GuardThread {
   bool sweepWaiting();
   bool takeMore();
   bool process(QueuedPose& queued, const QueuedPose* next);
-  void follow(sweep_guard_core::PoseWithFrames& pose);
+  sweep_guard_core::Time follow(sweep_guard_core::PoseWithFrames& pose);
   void forgetFrames();
   void pass(const sweep_guard_core::PoseWithFrames& pose);
   void sweep(const QueuedPose& queued);
@@ -170,7 +170,7 @@ class GuardThread {
   QueuedPose predicted_from_;                                // newest swept pose at the last prediction
   std::vector<sweep_guard_core::SteadyTime> passed_;         // when the poses passed since then were received
   sweep_guard_core::SteadyTime predicted_at_;                // time of the newest prediction
-  sweep_guard_core::Time frames_known_to_;                   // all that are followed, up to the pose of follow()
+  sweep_guard_core::Time frames_known_to_;                   // all that are followed, at the newest sweep; at most its pose
   PredictionPace pace_;
   sweep_guard_core::Pool<sweep_guard_core::SweepReport> reports_;
   sweep_guard_core::Pool<sweep_guard_core::Prediction> predictions_;
