@@ -83,8 +83,9 @@ class FrameMotionStore {
   bool add(const std::string& frame, const FramePose& pose);
   /// Forgets what add() added of frames other than these.
   void keepOnly(const std::set<std::string>& frames);
-  /// Forgets what was added and is needed for no pose of the tool after this stamp.
-  void forgetBefore(Time pose);
+  /// Forgets, as poses are added, those of before this stamp, up to which the tool has been swept in all of these frames; but for
+  /// what velocity() needs.
+  void forgetBefore(Time swept);
 
   std::shared_ptr<const FrameMotions> get() const;
   bool expects(const std::string& frame) const;
