@@ -180,6 +180,10 @@ TEST_F(LateTransformsTest, APoseWhoseFrameDoesNotComeIsRefused) {
 // Static transforms, of a fixture that holds a workpiece or of a camera that nobody uses.
 class StaticChangeTest : public LateTransformsTest {
  protected:
+  // A latched publisher keeps its last message only: what is sent before the guard is connected would be lost.
+  StaticChangeTest() {
+    while (static_.getNumSubscribers() == 0) ros::WallDuration(0.001).sleep();
+  }
   void place(const std::string& frame, double z) {
     auto transform = transformTo(frame, {}, {0.0, 0.0, z});
     send(transform, static_);
