@@ -28,7 +28,6 @@ using sweep_guard::MeshVertices;
 using sweep_guard::Warning;
 using SteadyClock = std::chrono::steady_clock;
 
-constexpr double kMaxGrowth = 64.0;  // [MB]
 constexpr size_t kMaxText = 1000;    // characters
 
 // Comes before the probe's own publisher, which would number the poses.
