@@ -6,6 +6,9 @@ function(sweep_guard_label test)
   if(slow IN_LIST ARGN)
     set_tests_properties(${test} PROPERTIES COST 30)
   endif()
+  if(NOT ros IN_LIST ARGN)  # it keeps a processor busy; what starts a master waits for most of the time
+    set_tests_properties(${test} PROPERTIES PROCESSORS 2)
+  endif()
 endfunction()
 
 # The main program, and the headers that are precompiled for the tests.
