@@ -65,7 +65,7 @@ TEST_F(StandInsTest, ThoseThatAreSweptAndNeverPredictedAreUnknownAfterAWhile) {
 TEST_F(StandInsTest, APredictionThatEndsAfterTheOthersCameStandsInAsLongAsItsTriangles) {
   const Workpieces before = newest_;
   sweepOnly(reportOf(remesh(1010)), 1012);
-  predict(predictionFrom(before, 1005), 1015);
+  predict(predictionFrom(before, 1005), 1005);
   EXPECT_EQ(levelAt(1060), WarningLevel::kClear);
   EXPECT_EQ(reasonsAt(1061), kNotCovered);
 }
