@@ -100,16 +100,13 @@ bool MeasuredSweeps::isPlaced(const std::string& frame, const PoseWithFrames& po
 void MeasuredSweeps::sweep(const SweepSetup& setup, const PoseWithFrames& pose, const BodyPose& body,
                            const Workpieces& workpieces, SweepReport& report) {
   forgetRemoved(workpieces);
-  for (auto& [id, swept] : swept_) {
-    swept.before = swept.pose;
-    swept.grown = false;
-  }
+  startSweep();
   add(pose, body, setup.frames);
   join(setup.frames);
   report.start = report.end = pose.stamp;
   const auto is_placed = [&](const Workpiece& workpiece) { return isPlaced(workpiece.frame, pose, setup.frames); };
   testPlaced(workpieces, is_placed, report, [&](const auto& workpiece, SweptObject& object) {
-    sweepObject(setup, workpiece, pose.stamp, object);
+    sweepObject(setup, workpiece, lastSwept(workpiece), pose.stamp, object);
     report.start = std::min(report.start, object.interval_start);
   });
   // Their next sweep begins where this one would have begun.
@@ -117,18 +114,45 @@ void MeasuredSweeps::sweep(const SweepSetup& setup, const PoseWithFrames& pose, 
     Swept& swept = lastSwept(workpiece);
     swept.before = swept.pose;
   }
+  sweepReplaced(setup, pose, report);
   for (auto& [frame, history] : histories_) shorten(frame, history);
   report.backlog = pose.stamp - waiting_since_.value_or(pose.stamp);
   waiting_since_.reset();
   swept_to_ = poses_;
 }
 
+void MeasuredSweeps::startSweep() {
+  for (auto& [id, swept] : swept_) {
+    swept.before = swept.pose;
+    swept.grown = false;
+  }
+  for (auto replaced = replaced_.begin(); replaced != replaced_.end();)
+    replaced = replaced->second.reported ? replaced_.erase(replaced) : std::next(replaced);
+}
+
+// What fails is swept to the next pose.
+void MeasuredSweeps::sweepReplaced(const SweepSetup& setup, const PoseWithFrames& pose, SweepReport& report) {
+  report.replaced.clear();
+  for (auto& [id, replaced] : replaced_) {
+    const auto workpiece = replaced.swept.deformations.back();
+    if (!isPlaced(workpiece->frame, pose, setup.frames)) continue;
+    SweptObject& object = report.replaced.emplace_back();
+    try {
+      sweepObject(setup, workpiece, replaced.swept, pose.stamp, object);
+      report.start = std::min(report.start, object.interval_start);
+      replaced.reported = true;
+    } catch (const std::exception& error) {  // of the detector, or no memory
+      report.replaced.pop_back();
+      report.failures.push_back({workpiece, error.what()});
+    }
+  }
+}
+
 // @param end_time  of the interval that times of impact are fractions of
 void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<const Workpiece>& workpiece,
-                                 Time end_time, SweptObject& object) {
+                                 Swept& swept, Time end_time, SweptObject& object) {
   const PoseHistory& history = histories_.at(workpiece->frame);
   const size_t last = history.size() - 1;
-  Swept& swept = lastSwept(workpiece);
   swept.before = swept.pose;
   const size_t begin = history.lastUpTo(swept.pose);
   const auto& from = deformationAt(history[begin].stamp, *workpiece, swept, object.behind);
@@ -194,6 +218,14 @@ const std::shared_ptr<const Workpiece>& MeasuredSweeps::deformationAt(Time pose,
   return from;
 }
 
+// Of those that came meanwhile, only the newest is swept besides the one that was swept last.
+void MeasuredSweeps::replace(Swept& swept, const std::shared_ptr<const Workpiece>& workpiece) {
+  Swept next{{workpiece}, swept.pose};
+  const auto [place, is_first] = replaced_.try_emplace(workpiece->id);
+  std::swap(swept, next);
+  if (is_first) place->second.swept = std::move(next);
+}
+
 // A workpiece with other triangles, or in another frame, has not been swept since the last pose.
 MeasuredSweeps::Swept& MeasuredSweeps::lastSwept(const std::shared_ptr<const Workpiece>& workpiece) {
   const auto entry = swept_.find(workpiece->id);
@@ -202,8 +234,9 @@ MeasuredSweeps::Swept& MeasuredSweeps::lastSwept(const std::shared_ptr<const Wor
   const Workpiece& before = *swept.deformations.back();
   if (before.frame != workpiece->frame) {
     swept = {{workpiece}, swept_to_};
+    replaced_.erase(workpiece->id);
   } else if (!sameTriangles(before.mesh_M, workpiece->mesh_M)) {
-    swept = {{workpiece}, swept.pose};
+    replace(swept, workpiece);
   }
   return swept;
 }
@@ -235,17 +268,23 @@ void MeasuredSweeps::takeBack() noexcept {
     if (swept.grown) swept.deformations.pop_back();
     swept.grown = false;
   }
+  for (auto& [id, replaced] : replaced_) {
+    replaced.swept.pose = replaced.swept.before;
+    replaced.reported = false;
+  }
 }
 
 void MeasuredSweeps::reset() {
   histories_.clear();
   joined_.clear();
   swept_.clear();
+  replaced_.clear();
   waiting_since_.reset();
 }
 
 void MeasuredSweeps::forgetContacts() {
   for (auto& [id, swept] : swept_) swept.cache = {};
+  for (auto& [id, replaced] : replaced_) replaced.swept.cache = {};
 }
 
 // A workpiece that appears later in an empty frame was not there when the tool moved.
@@ -260,6 +299,7 @@ void MeasuredSweeps::forgetRemoved(const Workpieces& workpieces) {
   keepOnlyNamed(histories_, &Workpiece::frame);
   keepOnlyNamed(joined_, &Workpiece::frame);
   keepOnlyNamed(swept_, &Workpiece::id);
+  keepOnlyNamed(replaced_, &Workpiece::id);
 }
 
 // Keeps the poses that a mesh update may need, and those along which some workpiece has not been swept yet.
@@ -267,6 +307,9 @@ void MeasuredSweeps::shorten(const std::string& frame, PoseHistory& history) con
   std::uint64_t unswept = history.newest().number;
   for (const auto& [id, swept] : swept_) {
     if (swept.deformations.back()->frame == frame) unswept = std::min(unswept, swept.before);
+  }
+  for (const auto& [id, replaced] : replaced_) {
+    if (replaced.swept.deformations.back()->frame == frame) unswept = std::min(unswept, replaced.swept.before);
   }
   const Time oldest = history.newest().stamp - kMaxUpdateInterval;
   while (history.size() > 1 && history[1].number <= unswept && history[1].stamp <= oldest) history.forgetFirst();

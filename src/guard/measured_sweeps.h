@@ -37,7 +37,8 @@ class MeasuredSweeps {
   void pass(const PoseWithFrames& pose, const BodyPose& body, const FrameMotions& frames = kNoFrameMotions);
 
   /// Sweeps through the poses passed since the last sweep to this pose. Against a workpiece in a frame that moves on its own,
-  /// up to the newest pose of that frame, if that is older.
+  /// up to the newest pose of that frame, if that is older. A workpiece that has other triangles is swept with the new ones, and
+  /// for the last time with those from before.
   /// @param[out] report  overwritten; its buffers are used again
   void sweep(const SweepSetup& setup, const PoseWithFrames& pose, const BodyPose& body, const Workpieces& workpieces,
              SweepReport& report);
@@ -63,6 +64,12 @@ class MeasuredSweeps {
     bool grown = false;        // the last sweep has added a deformation
   };
 
+  // A workpiece with the triangles that were replaced, until it is swept to a pose at which it has the new ones.
+  struct Replaced {
+    Swept swept;
+    bool reported = false;  // by the last sweep
+  };
+
   // Poses to be swept against one workpiece. Those before `begin` were swept when its deformation was not known yet.
   struct Segment {
     const Workpiece& workpiece;
@@ -80,11 +87,14 @@ class MeasuredSweeps {
   void add(const PoseWithFrames& pose, const BodyPose& body, const FrameMotions& frames);
   void join(const FrameMotions& frames);
   bool isPlaced(const std::string& frame, const PoseWithFrames& pose, const FrameMotions& frames) const;
-  void sweepObject(const SweepSetup& setup, const std::shared_ptr<const Workpiece>& workpiece, Time end_time,
-                   SweptObject& object);
+  void startSweep();
+  void sweepObject(const SweepSetup& setup, const std::shared_ptr<const Workpiece>& workpiece, Swept& swept,
+                   Time end_time, SweptObject& object);
+  void sweepReplaced(const SweepSetup& setup, const PoseWithFrames& pose, SweepReport& report);
   void sweepSegment(const SweepSetup& setup, const Segment& segment, SweptObject& object);
   static const std::shared_ptr<const Workpiece>& deformationAt(Time pose, const Workpiece& newest, Swept& swept,
                                                                Duration& behind);
+  void replace(Swept& swept, const std::shared_ptr<const Workpiece>& workpiece);
   Swept& lastSwept(const std::shared_ptr<const Workpiece>& workpiece);
   size_t endOfMotion(const SweepSetup& setup, size_t begin, size_t last) const;
   void findSubMotions(const SweepSetup& setup, const PoseHistory& history, size_t first, size_t begin, size_t end);
@@ -95,6 +105,7 @@ class MeasuredSweeps {
   std::map<std::string, JoinedMotion> joined_;    // by frame, of those that move on their own
   std::vector<JoinedMotion::Sample> samples_;     // of one of these
   std::map<std::string, Swept> swept_;            // by id
+  std::map<std::string, Replaced> replaced_;      // by id
   std::uint64_t poses_ = 0;                       // and samples of joined motions
   std::uint64_t swept_to_ = 0;                    // number of the pose of the last sweep
   std::optional<Time> waiting_since_;             // stamp of the first pose passed since then

@@ -121,8 +121,9 @@ void unite(SweepReport& all, SweepReport& body, size_t first_piece) {
   all.start = std::min(all.start, body.start);
   all.backlog = std::max(all.backlog, body.backlog);
   unite(all.failures, body.failures);
-  uniteEach(all.objects, body.objects, first_piece,
-            [&](SweptObject& known, SweptObject& object) { unite(known, object, all.end); });
+  for (const auto objects : {&SweepReport::objects, &SweepReport::replaced})
+    uniteEach(all.*objects, body.*objects, first_piece,
+              [&](SweptObject& known, SweptObject& object) { unite(known, object, all.end); });
 }
 
 void unite(Prediction& all, Prediction& body, size_t first_piece) {

@@ -82,7 +82,7 @@ void addObjectReasons(const WarningInputs& inputs, const Instant& now, const War
                 {"workpiece '", object.id, "' is ", inSeconds(age(object.timestamps, now)), " old"});
     }
     if (object.dropped) addObject(warning, kMeshDropped, {"vertices of workpiece '", object.id, "' were dropped"});
-    if (!inputs.pose || object.swept) continue;
+    if (!inputs.pose || object.swept || now.steady <= object.stands_in_until.value_or(SteadyTime::min())) continue;
     if (object.behind > Duration::zero()) {
       addObject(warning, kNotSwept,
                 {"tool poses are ", inSeconds(object.behind), " behind workpiece '", object.id, "'"});

@@ -167,9 +167,9 @@ void WarningMonitor::posesLost(const std::string& message, SteadyTime now) {
   on_fault_();
 }
 
-void WarningMonitor::setWorkpieces(const Workpieces& workpieces) {
+void WarningMonitor::setWorkpieces(const Workpieces& workpieces, std::optional<SteadyTime> now) {
   const std::lock_guard lock(mutex_);
-  workpieces_->set(workpieces);
+  workpieces_->set(workpieces, now);
   warnings_->endAcknowledgementsOfGone(workpieces);
 }
 
@@ -226,9 +226,7 @@ Time WarningMonitor::coveredUntil(const Instant& now) const {
   if (!coverage_ || coverage_->pose.stamp > swept_until_ || stale(coverage_->pose, now, limits_.pose_timeout)) {
     return swept_until_;
   }
-  const Workpieces& newest = workpieces_->newest();
-  const auto tested = [&](const auto& workpiece) { return holds(coverage_->tested, *workpiece); };
-  const bool all = std::all_of(newest.begin(), newest.end(), tested);
+  const bool all = workpieces_->allCount(coverage_->tested, now.steady);
   return all ? std::max(swept_until_, coverage_->covered_until) : swept_until_;
 }
 

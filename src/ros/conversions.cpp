@@ -217,15 +217,17 @@ sweep_guard::Contacts toMsg(const sweep_guard_core::SweepReport& report, const s
   msg.header.stamp = toMsg(report.end);
   msg.interval_start = toMsg(report.start);
   msg.margin = report.margin();
-  for (const sweep_guard_core::SweptObject& object : report.objects) {
+  const auto add = [&](const sweep_guard_core::SweptObject& object) {
     if (!object.result.allowed.triangles.empty()) {
       msg.allowed.push_back(allowedMsg(*object.workpiece, object.result, tool));
       rescale(msg.allowed.back().impacts, object.interval_start, report);
     }
-    if (object.result.triangles.empty() && !object.result.inside) continue;
+    if (object.result.triangles.empty() && !object.result.inside) return;
     msg.objects.push_back(toMsg(*object.workpiece, object.result, tool));
     rescale(msg.objects.back().impacts, object.interval_start, report);
-  }
+  };
+  std::for_each(report.objects.begin(), report.objects.end(), add);
+  std::for_each(report.replaced.begin(), report.replaced.end(), add);
   return msg;
 }
 

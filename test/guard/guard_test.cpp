@@ -237,6 +237,83 @@ TEST_F(GuardTest, SweepsThePathAcrossAFailureThoughTheTrianglesAreNew) {
   EXPECT_TRUE(reportOf(guard_, pose(1.2, {{"table", up(-0.3)}}), remeshed).contact());
 }
 
+// Of two triangles at a height in the frame `table`.
+std::shared_ptr<const Workpiece> quadAt(double z, std::uint32_t revision) {
+  const TriangleMesh mesh_M({{-1, -1, z}, {1, -1, z}, {1, 1, z}, {-1, 1, z}}, {{0, 1, 2}, {0, 2, 3}});
+  return std::make_shared<const Workpiece>(
+      Workpiece{"triangle", revision, atSecond(1.05), SteadyTime{}, "table", mesh_M});
+}
+
+TEST_F(GuardTest, SweepsTrianglesThatWereReplacedToTheNextPoseAndNoFarther) {
+  const Workpieces far = {quadAt(-5.0, 1)};
+  sweepTo(1.0, 0.2);
+  const SweepReport both = reportOf(guard_, pose(1.1, {{"table", up(-0.2)}}), far);
+  ASSERT_EQ(both.objects.size(), 1U);
+  EXPECT_FALSE(both.objects[0].result.contact());
+  ASSERT_EQ(both.replaced.size(), 1U);
+  EXPECT_EQ(both.replaced[0].workpiece, table_[0]);
+  EXPECT_EQ(both.replaced[0].interval_start, atSecond(1.0));
+  EXPECT_EQ(both.replaced[0].result.triangles, Indices{0});
+  EXPECT_TRUE(both.contact());
+  EXPECT_TRUE(both.complete());
+  const SweepReport next = reportOf(guard_, pose(1.2, {{"table", up(0.2)}}), far);
+  EXPECT_TRUE(next.replaced.empty());
+  EXPECT_FALSE(next.contact());
+}
+
+TEST_F(GuardTest, FindsAContactWithNewTrianglesBesideThoseThatWereReplaced) {
+  sweepTo(1.0, 0.5);
+  const SweepReport both = reportOf(guard_, pose(1.1, {{"table", up(0.5)}}), {quadAt(0.45, 1)});
+  ASSERT_EQ(both.replaced.size(), 1U);
+  EXPECT_FALSE(both.replaced[0].result.contact());
+  EXPECT_TRUE(both.objects[0].result.contact());
+}
+
+// A tool that rests on the triangles meets those from before and the new ones.
+TEST_F(GuardTest, FindsContactsWithTheTrianglesFromBeforeAndTheNewOnes) {
+  sweepTo(1.0, 0.05);
+  const SweepReport both = reportOf(guard_, pose(1.1, {{"table", up(0.05)}}), {quadAt(0.0, 1)});
+  ASSERT_EQ(both.replaced.size(), 1U);
+  EXPECT_TRUE(both.replaced[0].result.contact());
+  EXPECT_TRUE(both.objects[0].result.contact());
+}
+
+TEST_F(GuardTest, SweepsReplacedTrianglesAgainAfterAFailureOrWhereTheReportWasLost) {
+  const Workpieces far = {quadAt(-5.0, 1)};
+  sweepTo(1.0, 0.2);
+  record_.failures_left = 100;
+  const SweepReport failed = reportOf(guard_, pose(1.1, {{"table", up(-0.2)}}), far);
+  record_.failures_left = 0;
+  EXPECT_TRUE(failed.replaced.empty());
+  EXPECT_FALSE(failed.failures.empty());
+  EXPECT_FALSE(failed.complete());
+  EXPECT_TRUE(reportOf(guard_, pose(1.2, {{"table", up(-0.2)}}), far).contact());
+  guard_.takeBack();
+  const SweepReport again = reportOf(guard_, pose(1.3, {{"table", up(-0.2)}}), far);
+  EXPECT_TRUE(again.contact());
+  EXPECT_EQ(again.start, atSecond(1.0));
+  EXPECT_FALSE(reportOf(guard_, pose(1.4, {{"table", up(-0.2)}}), far).contact());
+}
+
+TEST_F(GuardTest, ForgetsReplacedTrianglesOfAWorkpieceThatIsRemovedOrComesInAnotherFrame) {
+  sweepTo(1.0, 0.2);
+  EXPECT_TRUE(reportOf(guard_, pose(1.1, {}), {quadAt(-5.0, 1)}).replaced.empty()) << "its frame is unknown";
+  EXPECT_TRUE(reportOf(guard_, pose(1.2, {{"table", up(-0.2)}}), {}).replaced.empty());
+  EXPECT_FALSE(reportOf(guard_, pose(1.3, {{"table", up(-0.2)}}), {quadAt(-5.0, 2)}).contact());
+  const SweepReport moved =
+      reportOf(guard_, pose(1.4, {{"turntable", up(0.5)}}), {triangleIn("triangle", "turntable")});
+  EXPECT_TRUE(moved.replaced.empty());
+  EXPECT_FALSE(moved.contact());
+}
+
+// The tool goes through the triangles while their frame is not known, and they are replaced meanwhile.
+TEST_F(GuardTest, SweepsReplacedTrianglesOnceTheirFrameIsKnown) {
+  const Workpieces far = {quadAt(-5.0, 1)};
+  sweepTo(1.0, 0.2);
+  reportOf(guard_, pose(1.1, {}), far);
+  EXPECT_TRUE(reportOf(guard_, pose(1.2, {{"table", up(-0.2)}}), far).contact());
+}
+
 TEST_F(GuardTest, AFailureOnOneWorkpieceDoesNotHideAContactWithAnother) {
   const Workpieces both = {triangleIn("first", "table"), triangleIn("second", "table")};
   record_.failures_left = 1;

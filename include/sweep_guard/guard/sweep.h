@@ -125,9 +125,12 @@ struct SweepReport {
   Workpieces unplaced;               ///< workpieces that were not swept because their frame is unknown at `end`
   /// Workpieces whose sweep failed, for one body of the tool at least; `objects` has what the others met.
   std::vector<SweepFailure> failures;
+  /// Workpieces that have other triangles since they were last swept, with the triangles from before: the tool may have met these
+  /// on the way to the pose. As a rule empty.
+  std::vector<SweptObject> replaced = {};
 
   double margin() const;           ///< largest margin of all objects [m]; 0 if there are none
-  bool contact() const;            ///< the tool met an object, or it is not ruled out that it did
+  bool contact() const;            ///< the tool met an object, also a replaced one, or it is not ruled out that it did
   bool unintendedContact() const;  ///< the same, but for contacts as intended (Intention)
   bool complete() const;  ///< there is at least one workpiece, and every workpiece was swept with all its updates
 };

@@ -25,6 +25,8 @@ struct WarningInputs {
     bool dropped = false;   ///< an update was dropped unread, and no later one has been swept
     bool ages = true;       ///< false: of another tool
     size_t open_edges = 0;  ///< borders of its surface, TriangleMesh::openEdges()
+    /// Until when other triangles, which were swept at the newest pose, count for these, which replaced them; empty: they do not.
+    std::optional<SteadyTime> stands_in_until = {};
   };
   /// Another tool that is watched, too.
   struct OtherTool {

@@ -127,8 +127,10 @@ class WarningMonitor {
   /// Reports that poses were sent and did not arrive. The warning says so for the hold time; its level stays.
   void posesLost(const std::string& message, SteadyTime now);
 
-  /// Sets the newest snapshots of all workpieces, ascending by id (not checked).
-  void setWorkpieces(const Workpieces& workpieces);
+  /// Sets the newest snapshots of all workpieces, ascending by id (not checked). Where triangles replace others in the same
+  /// frame, what was swept and predicted with those counts until these are swept and predicted, for up to 50 ms.
+  /// @param now  when they came; empty: each when it was received
+  void setWorkpieces(const Workpieces& workpieces, std::optional<SteadyTime> now = {});
 
   /// Reports a sweep to a pose, and clears the faults from before the pose's checkpoint. Does nothing if the monitor
   /// was restarted since the checkpoint. Each failure in the report becomes a new fault, kDetectorFault.
