@@ -405,6 +405,7 @@ TEST_P(BadVerticesTest, AreRefusedAndAreUnknown) {
 INSTANTIATE_TEST_SUITE_P(
     Vertices, BadVerticesTest,
     ::testing::Values(BadVertices{"TooFew", [](auto& vertices) { vertices.positions.pop_back(); }},
+                      BadVertices{"TooCoarseInFloat32", [](auto& vertices) { vertices.positions[1] = 4e6F; }},
                       BadVertices{"Infinite", [](auto& vertices) { vertices.positions[0] = INFINITY; }},
                       BadVertices{"UnknownWorkpiece", [](auto& vertices) { vertices.id = "ghost"; }},
                       BadVertices{"NoId", [](auto& vertices) { vertices.id = ""; }}),
