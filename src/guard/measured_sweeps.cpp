@@ -73,7 +73,7 @@ void leaveOut(const SweepSetup& setup, bool has_new_poses, SweepCache& cache, Sw
 
 void MeasuredSweeps::pass(const PoseWithFrames& pose, const BodyPose& body, const FrameMotions& frames) {
   add(pose, body, frames);
-  if (!waiting_since_) waiting_since_ = pose.stamp;
+  if (!waiting_since_) waiting_since_ = pose.received;
 }
 
 void MeasuredSweeps::add(const PoseWithFrames& pose, const BodyPose& body, const FrameMotions& frames) {
@@ -118,7 +118,7 @@ void MeasuredSweeps::sweep(const SweepSetup& setup, const PoseWithFrames& pose, 
     swept.before = swept.pose;
   }
   for (auto& [frame, history] : histories_) shorten(frame, history);
-  report.backlog = pose.stamp - waiting_since_.value_or(pose.stamp);
+  report.backlog = pose.received - waiting_since_.value_or(pose.received);
   waiting_since_.reset();
   swept_to_ = poses_;
 }

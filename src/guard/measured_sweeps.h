@@ -97,7 +97,7 @@ class MeasuredSweeps {
   std::map<std::string, Swept> swept_;            // by id
   std::uint64_t poses_ = 0;                       // and samples of joined motions
   std::uint64_t swept_to_ = 0;                    // number of the pose of the last sweep
-  std::optional<Time> waiting_since_;             // stamp of the first pose passed since then
+  std::optional<SteadyTime> waiting_since_;       // when the first pose passed since then was received
   Path path_M_;                                   // of the segment under test
   std::vector<Motion> sub_motions_M_;             // of a motion along the segment
   SweepChecker sweep_checker_;

@@ -118,9 +118,11 @@ struct SweptObject {
 
 /// Reports one step of the guard: the sweeps up to one pose.
 struct SweepReport {
-  Time start;          ///< earliest `interval_start` of `objects`; `end` at the first pose and if there are none
-  Time end;            ///< stamp of the pose
-  Duration backlog{};  ///< time from the first pose given to Guard::pass() since the last sweep to `end`; 0: none
+  Time start;  ///< earliest `interval_start` of `objects`; `end` at the first pose and if there are none
+  Time end;    ///< stamp of the pose
+  /// How long the first pose given to Guard::pass() since the last sweep waited: until the pose of this sweep was received. 0: no
+  /// pose waited.
+  Duration backlog{};
   std::vector<SweptObject> objects;  ///< every workpiece swept, in the order given to sweep() unless a sweep failed
   Workpieces unplaced;               ///< workpieces that were not swept because their frame is unknown at `end`
   /// Workpieces whose sweep failed, for one body of the tool at least; `objects` has what the others met.

@@ -21,7 +21,7 @@ enum Reason : std::uint32_t {
   kDetectorFault = 1U << 10,   ///< the detector or a thread of the guard failed
   kNotSwept = 1U << 11,        ///< a workpiece was not swept at the newest pose, or not with all its updates
   kNotCovered = 1U << 12,      ///< not every workpiece is tested up to now + `considered`
-  kOverload = 1U << 13,        ///< poses that span more than `overload` were swept at once
+  kOverload = 1U << 13,        ///< poses that had waited for more than `overload` were swept at once
   kDisabled = 1U << 14,        ///< the guard is disabled, or shuts down
   kMultiPublisher = 1U << 15,  ///< several nodes publish tool poses, which is not allowed
   kPoseLoss = 1U << 16,        ///< poses were sent and did not arrive

@@ -56,7 +56,7 @@ struct WarningInputs {
   };
   /// Poses that waited and were swept at once. `found`: when.
   struct Backlog {
-    Duration span{};  ///< from the first to the last of these poses
+    Duration waited{};  ///< the first of these poses
     SteadyTime found;
   };
   /// Something that is reported for a while after `found`.
