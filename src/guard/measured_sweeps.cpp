@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "guard/frame_jumps.h"
 #include "guard/out_of_reach.h"
 #include "guard/placed_workpieces.h"
 #include "guard/rigid_shape.h"
@@ -106,6 +107,7 @@ void MeasuredSweeps::sweep(const SweepSetup& setup, const PoseWithFrames& pose, 
   }
   add(pose, body, setup.frames);
   join(setup.frames);
+  findJumps(setup.limits, report.jumps);
   report.start = report.end = pose.stamp;
   const auto is_placed = [&](const Workpiece& workpiece) { return isPlaced(workpiece.frame, pose, setup.frames); };
   testPlaced(workpieces, is_placed, report, [&](const auto& workpiece, SweptObject& object) {
@@ -270,6 +272,13 @@ void MeasuredSweeps::shorten(const std::string& frame, PoseHistory& history) con
   }
   const Time oldest = history.newest().stamp - kMaxUpdateInterval;
   while (history.size() > 1 && history[1].number <= unswept && history[1].stamp <= oldest) history.forgetFirst();
+}
+
+void MeasuredSweeps::findJumps(const SpeedLimits& limits, std::vector<FrameJump>& jumps) const {
+  jumps.clear();
+  for (const auto& [frame, history] : histories_) {
+    if (const auto speed = jumpAfter(swept_to_, history, limits)) jumps.push_back({frame, *speed});
+  }
 }
 
 }  // namespace sweep_guard_core

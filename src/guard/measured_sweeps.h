@@ -24,7 +24,8 @@ struct SweepSetup {
   const Intentions& intentions = kNoIntentions;
   const AllowedPairs& allowed = kNoAllowedPairs;
   const FrameMotions& frames = kNoFrameMotions;  ///< of those that move on their own
-  bool several = false;  ///< the tool is one of several bodies: where it stays out of reach, it has no volumes
+  bool several = false;     ///< the tool is one of several bodies: where it stays out of reach, it has no volumes
+  SpeedLimits limits = {};  ///< faster motion is a jump
 };
 
 /// Sweeps one body of the tool along the measured poses; Guard says what is swept. Keeps the poses that may be swept again for
@@ -90,6 +91,7 @@ class MeasuredSweeps {
   void findSubMotions(const SweepSetup& setup, const PoseHistory& history, size_t first, size_t begin, size_t end);
   void forgetRemoved(const Workpieces& workpieces);
   void shorten(const std::string& frame, PoseHistory& history) const;
+  void findJumps(const SpeedLimits& limits, std::vector<FrameJump>& jumps) const;
 
   std::map<std::string, PoseHistory> histories_;  // by frame: the poses that may be swept again, and the newest
   std::map<std::string, JoinedMotion> joined_;    // by frame, of those that move on their own

@@ -126,6 +126,7 @@ void addLoadReasons(const WarningInputs& inputs, const Instant& now, const Warni
     add(warning, kOverload, {"overload: poses that waited for ", inSeconds(inputs.overload->waited), " swept at once"});
   }
   if (held(inputs.pose_loss)) add(warning, kPoseLoss, {inputs.pose_loss->message});
+  if (held(inputs.jump)) add(warning, kJump, {inputs.jump->message, ": what was reported may come from that"});
 }
 
 void addThreadReasons(const WarningInputs& inputs, Warning& warning) {

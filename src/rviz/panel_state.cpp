@@ -12,7 +12,7 @@ using sweep_guard::Warning;
 using sweep_guard_core::toSeconds;
 
 // Reasons that leave the level as it is.
-constexpr std::uint32_t kDegraded = Warning::OVERLOAD | Warning::POSE_LOSS | Warning::INSIDE_UNTESTED;
+constexpr std::uint32_t kDegraded = Warning::OVERLOAD | Warning::POSE_LOSS | Warning::INSIDE_UNTESTED | Warning::JUMP;
 
 constexpr auto kFlashHalf = std::chrono::milliseconds(250);
 
@@ -39,6 +39,7 @@ constexpr std::pair<std::uint32_t, const char*> kReasons[] = {
     {Warning::SELFTEST, "the detector failed its test"},
     {Warning::CROSSCHECK, "two detectors disagree"},
     {Warning::INSIDE_UNTESTED, "a surface is open: inside is not tested"},
+    {Warning::JUMP, "a jump: what was reported may come from it"},
     {Warning::DISABLED, "the guard is disabled: nothing is tested"},
 };
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "sweep_guard/common/time.h"
@@ -13,6 +14,7 @@
 #include "sweep_guard/geometry/tool.h"
 #include "sweep_guard/guard/allowed_contact.h"
 #include "sweep_guard/guard/workpiece.h"
+#include "sweep_guard/prediction/jump.h"
 
 namespace sweep_guard_core {
 
@@ -116,6 +118,12 @@ struct SweptObject {
   SweepResult result;
 };
 
+/// Motion of the tool, seen from a frame of workpieces, that is too fast to be believed. It is swept all the same.
+struct FrameJump {
+  std::string frame;
+  JumpSpeed speed;
+};
+
 /// Reports one step of the guard: the sweeps up to one pose.
 struct SweepReport {
   Time start;  ///< earliest `interval_start` of `objects`; `end` at the first pose and if there are none
@@ -127,6 +135,8 @@ struct SweepReport {
   Workpieces unplaced;               ///< workpieces that were not swept because their frame is unknown at `end`
   /// Workpieces whose sweep failed, for one body of the tool at least; `objects` has what the others met.
   std::vector<SweepFailure> failures;
+  std::string jump = {};              ///< what jumped on the way, in words (PoseWithFrames::jump); empty: nothing
+  std::vector<FrameJump> jumps = {};  ///< frames against which the tool, or a body of it, jumped on the way: each once
 
   double margin() const;           ///< largest margin of all objects [m]; 0 if there are none
   bool contact() const;            ///< the tool met an object, or it is not ruled out that it did

@@ -31,11 +31,12 @@ enum Reason : std::uint32_t {
   kSelftest = 1U << 20,        ///< the detector failed its test at the start, and was not exchanged for one that passes
   kCrosscheck = 1U << 21,      ///< two detectors disagreed about a sweep
   kInsideUntested = 1U << 22,  ///< the surface of a workpiece has a border, and the sender does not say that it is open
+  kJump = 1U << 23,  ///< the tool, a workpiece or a joint moved faster than the limits: what was met may come from that
 };
 
 /// Reasons that report a degraded state and do not change the level. Any other reason makes a warning that would be
 /// CLEAR UNKNOWN, and sets the flag `reflex` of msg/Warning.msg.
-constexpr std::uint32_t kDegraded = kOverload | kPoseLoss | kInsideUntested;
+constexpr std::uint32_t kDegraded = kOverload | kPoseLoss | kInsideUntested | kJump;
 
 /// Reasons with which the guard may not know every surface, or not where it is.
 constexpr std::uint32_t kSurfacesMissing = kNoMesh | kMeshInvalid | kTimeJump | kDetectorFault | kNotSwept;

@@ -25,7 +25,7 @@ struct WarningThresholds {
 struct WarningLimits {
   Duration pose_timeout;  ///< a pose older than this is stale; > 0
   Duration mesh_timeout;  ///< a workpiece older than this is stale; > 0; Duration::max(): never
-  Duration hold_time;     ///< how long a contact, a warning, an overload or a loss is shown after its end; >= 0
+  Duration hold_time;     ///< how long a contact, a warning, an overload, a loss or a jump is shown after its end; >= 0
   Duration reflex = std::chrono::milliseconds(100);       ///< end of the reflex interval, counted from now, > 0
   Duration considered = std::chrono::milliseconds(1000);  ///< end of the considered interval, > reflex
   Duration tick = std::chrono::milliseconds(15);          ///< longest time until the next computeWarning(); >= 0

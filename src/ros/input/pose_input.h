@@ -16,6 +16,7 @@
 #include "ros/bounded.h"
 #include "ros/input/articulated_tool.h"
 #include "ros/input/frames.h"
+#include "ros/input/jump_watch.h"
 #include "ros/log_throttle.h"
 #include "ros/parameters/parameters.h"
 #include "ros/threads/queue_thread.h"
@@ -63,6 +64,7 @@ class PoseInput {
   void acceptJoints(const ros::MessageEvent<const sensor_msgs::JointState>& event);
   void begin();
   void pushKnownPoses(sweep_guard_core::SteadyTime received);
+  std::string jumpTo(const ArticulatedTool::Pose& state);
   void push(sweep_guard_core::SteadyTime received, ArticulatedTool::Pose pose);
   std::map<std::string, Eigen::Isometry3d> locate(const std::set<std::string>& mesh_frames,
                                                   sweep_guard_core::Time stamp);
@@ -82,6 +84,7 @@ class PoseInput {
 
   sweep_guard_core::WarningMonitor::Checkpoint checkpoint_;  // of the previous pose
   std::optional<sweep_guard_core::Time> previous_stamp_;
+  JumpWatch jumps_;
   std::optional<sweep_guard_core::Time> last_transform_;  // used by the tf listener's thread only
   // Missing transforms by target and source, each with the stamp of the newest one that there was.
   std::map<std::pair<std::string, std::string>, std::optional<sweep_guard_core::Time>> missing_;

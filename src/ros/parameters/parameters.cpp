@@ -61,12 +61,12 @@ sweep_guard_core::PredictorOptions readPredictor(ParameterReader& read) {
                                                  "Polynomials ignore samples that are older."));
   options.max_speed =
       read.live().number("limits/max_speed", options.max_speed, {0.001, 1000.0, "m/s"},
-                         "No prediction moves the tip faster, or a joint that slides. A faster pose is a jump: "
-                         "the motion is learned again.");
+                         "No prediction moves the tip faster, or a joint that slides. A faster pose is a jump (reason "
+                         "JUMP): the motion is learned again.");
   options.max_turn_rate =
       read.live().number("limits/max_turn_rate", options.max_turn_rate, {0.001, 1000.0, "rad/s"},
-                         "No prediction turns faster, of the tool or of a joint. A pose that does is a jump: the "
-                         "motion is learned again.");
+                         "No prediction turns faster, of the tool or of a joint. A pose that does is a jump (reason "
+                         "JUMP): the motion is learned again.");
   return options;
 }
 
