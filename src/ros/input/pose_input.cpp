@@ -66,6 +66,7 @@ PoseInput::PoseInput(const ros::NodeHandle& node, const LiveParameters& live, co
       tool_frame_(live.initial().tool_frame),
       source_(sourceOf(node, live.initial())),
       allow_several_publishers_(live.initial().allow_several_publishers),
+      tool_in_tf_(live.initial().tool_source != ToolSource::kTopic),
       frames_(dependencies.frames),
       workpieces_(dependencies.workpieces),
       monitor_(dependencies.monitor),
@@ -149,6 +150,17 @@ bool PoseInput::hasSeveralPublishers() const {
   return subscriber_ && !allow_several_publishers_ && subscriber_.getNumPublishers() > 1;
 }
 
+// Of the frames that place the tool or a workpiece.
+void PoseInput::reportConflict() {
+  if (allow_several_publishers_ || !frames_.hasConflicts()) return;
+  std::set<std::string> placed = *workpieces_.frames();
+  placed.insert(tool_in_tf_ ? tool_frame_ : pose_frame_);
+  const std::string conflict = frames_.conflict(fixed_frame_, placed);
+  if (conflict.empty()) return;
+  monitor_.fault(sweep_guard_core::kMultiPublisher, conflict);
+  log_.error("conflict", conflict);
+}
+
 // Runs in the thread of the tf listener, which must not wait for transforms: only reads the pose.
 void PoseInput::onTransforms() {
   const std::optional<sweep_guard_core::Time> newest = frames_.newest(fixed_frame_, tool_frame_);
@@ -193,9 +205,11 @@ void PoseInput::begin() {
   if (hasSeveralPublishers()) {
     monitor_.fault(sweep_guard_core::kMultiPublisher, "several nodes publish tool poses on " + source_);
   }
+  reportConflict();
 }
 
 void PoseInput::accept(const ReceivedPose& pose) {
+  pose_frame_ = pose.frame;
   begin();
   const auto& [stamp, received] = pose.timestamps;
   requireStamp(stamp);

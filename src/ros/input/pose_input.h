@@ -57,6 +57,7 @@ class PoseInput {
   void onMessage(const ros::MessageEvent<const geometry_msgs::PoseStamped>& event);
   void countLost(const std::string& publisher, std::uint32_t sequence);
   bool hasSeveralPublishers() const;
+  void reportConflict();
   void onTransforms();
   template <typename Accept>
   void refuseWhatFails(const Accept& accept);
@@ -76,6 +77,7 @@ class PoseInput {
   const std::string tool_frame_;
   const std::string source_;
   const bool allow_several_publishers_;
+  const bool tool_in_tf_;
   Frames& frames_;
   const sweep_guard_core::WorkpieceStore& workpieces_;
   sweep_guard_core::WarningMonitor& monitor_;
@@ -84,6 +86,7 @@ class PoseInput {
 
   sweep_guard_core::WarningMonitor::Checkpoint checkpoint_;  // of the previous pose
   std::optional<sweep_guard_core::Time> previous_stamp_;
+  std::string pose_frame_;  // of the newest pose
   JumpWatch jumps_;
   std::optional<sweep_guard_core::Time> last_transform_;  // used by the tf listener's thread only
   // Missing transforms by target and source, each with the stamp of the newest one that there was.

@@ -274,8 +274,9 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
       "warning is UNKNOWN, reason NOT_COVERED. []: none.");
   parameters.allow_several_publishers =
       read.flag("allow_several_publishers", false,
-                "Allows several publishers on `tool_pose`. Otherwise the warning is UNKNOWN while there are several: "
-                "the tool would jump between their poses.");
+                "Allows several publishers on `tool_pose`, and of tf frames that place the tool or a workpiece. "
+                "Otherwise the warning is UNKNOWN while there are several: what they place would jump between their "
+                "poses.");
   parameters.max_triangles = static_cast<size_t>(
       read.integer("limits/max_triangles", 1000000, 1, 10000000, "A mesh with more triangles is refused."));
   const int max_message_size =
