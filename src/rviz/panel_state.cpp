@@ -31,7 +31,7 @@ constexpr std::pair<std::uint32_t, const char*> kReasons[] = {
     {Warning::NOT_SWEPT, "a workpiece has not been swept yet"},
     {Warning::NOT_COVERED, "predicted path not tested"},
     {Warning::OVERLOAD, "overload: several poses swept at once"},
-    {Warning::MULTI_PUBLISHER, "several nodes publish tool poses"},
+    {Warning::MULTI_PUBLISHER, "several nodes publish tool poses or a frame"},
     {Warning::POSE_LOSS, "tool poses were lost on the way"},
     {Warning::POSES_UNSWEPT, "tool poses wait to be swept"},
     {Warning::MESH_DROPPED, "vertices of a workpiece were dropped"},

@@ -23,7 +23,7 @@ enum Reason : std::uint32_t {
   kNotCovered = 1U << 12,      ///< not every workpiece is tested up to now + `considered`
   kOverload = 1U << 13,        ///< poses that had waited for more than `overload` were swept at once
   kDisabled = 1U << 14,        ///< the guard is disabled, or shuts down
-  kMultiPublisher = 1U << 15,  ///< several nodes publish tool poses, which is not allowed
+  kMultiPublisher = 1U << 15,  ///< several nodes publish tool poses, or a frame, which is not allowed
   kPoseLoss = 1U << 16,        ///< poses were sent and did not arrive
   kPosesUnswept = 1U << 17,    ///< a pose was dropped, or waits longer than both `overload` and the newest prediction
   kMeshDropped = 1U << 18,     ///< an update of a workpiece was dropped unread
