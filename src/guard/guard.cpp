@@ -44,6 +44,7 @@ void assign(PoseWithFrames& to, const PoseWithFrames& from) {
   to.X_WT = from.X_WT;
   to.bodies = from.bodies;
   to.state = from.state;
+  to.jump = from.jump;
   auto next = from.X_WM.begin();
   for (auto& [frame, X_WM] : to.X_WM) X_WM = next++->second;
 }
@@ -121,17 +122,26 @@ const Tool& Guard::tool(size_t body) const { return bodies_[body]->tool; }
 
 void Guard::sweep(const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report) {
   const SteadyTime begin = options_.clock();
-  predictor_.observe(pose);
+  observe(pose);
   displacements_->forgetUnused();
   forEachBody(bodies_, swept_order_, &GuardedBody::report, report,
               [&](size_t i, GuardedBody& body, SweepReport& swept) {
                 const BodyPose at = pose.body(i);
-                const SweepSetup setup{
-                    body.tool,     *detector_,       options_.sweep, *displacements_,   [this] { throwIfStopping(); },
-                    *intentions(), options_.allowed, *frames_,       bodies_.size() > 1};
+                const SweepSetup setup{body.tool,
+                                       *detector_,
+                                       options_.sweep,
+                                       *displacements_,
+                                       [this] { throwIfStopping(); },
+                                       *intentions(),
+                                       options_.allowed,
+                                       *frames_,
+                                       bodies_.size() > 1,
+                                       {options_.predictor.max_speed, options_.predictor.max_turn_rate}};
                 body.sweeps.sweep(setup, pose, at, workpieces, swept);
                 body.touches.update(swept, pose, at.X_WB, body.tool, *intentions());
               });
+  report.jump = jump_;
+  jump_.clear();
   if (!newest_) newest_.emplace();
   assign(*newest_, pose);
   budget_->spentOnMeasured(options_.clock() - begin);
@@ -141,8 +151,17 @@ void Guard::takeBack() noexcept {
   for (const auto& body : bodies_) body->sweeps.takeBack();
 }
 
-void Guard::pass(const PoseWithFrames& pose) {
+// What jumps does not go on as it jumped.
+void Guard::observe(const PoseWithFrames& pose) {
+  if (!pose.jump.empty()) {
+    predictor_.restart();
+    jump_ = pose.jump;
+  }
   predictor_.observe(pose);
+}
+
+void Guard::pass(const PoseWithFrames& pose) {
+  observe(pose);
   for (size_t i = 0; i < bodies_.size(); ++i) bodies_[i]->sweeps.pass(pose, pose.body(i), *frames_);
 }
 
@@ -265,6 +284,7 @@ void Guard::reset() {
   }
   predictor_.restart();
   newest_.reset();
+  jump_.clear();
 }
 
 void Guard::exchange(GuardChange& change) {

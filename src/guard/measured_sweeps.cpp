@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "guard/frame_jumps.h"
 #include "guard/out_of_reach.h"
 #include "guard/placed_workpieces.h"
 #include "guard/rigid_shape.h"
@@ -73,7 +74,7 @@ void leaveOut(const SweepSetup& setup, bool has_new_poses, SweepCache& cache, Sw
 
 void MeasuredSweeps::pass(const PoseWithFrames& pose, const BodyPose& body, const FrameMotions& frames) {
   add(pose, body, frames);
-  if (!waiting_since_) waiting_since_ = pose.stamp;
+  if (!waiting_since_) waiting_since_ = pose.received;
 }
 
 void MeasuredSweeps::add(const PoseWithFrames& pose, const BodyPose& body, const FrameMotions& frames) {
@@ -103,6 +104,7 @@ void MeasuredSweeps::sweep(const SweepSetup& setup, const PoseWithFrames& pose, 
   startSweep();
   add(pose, body, setup.frames);
   join(setup.frames);
+  findJumps(setup.limits, report.jumps);
   report.start = report.end = pose.stamp;
   const auto is_placed = [&](const Workpiece& workpiece) { return isPlaced(workpiece.frame, pose, setup.frames); };
   testPlaced(workpieces, is_placed, report, [&](const auto& workpiece, SweptObject& object) {
@@ -116,7 +118,7 @@ void MeasuredSweeps::sweep(const SweepSetup& setup, const PoseWithFrames& pose, 
   }
   sweepReplaced(setup, pose, report);
   for (auto& [frame, history] : histories_) shorten(frame, history);
-  report.backlog = pose.stamp - waiting_since_.value_or(pose.stamp);
+  report.backlog = pose.received - waiting_since_.value_or(pose.received);
   waiting_since_.reset();
   swept_to_ = poses_;
 }
@@ -313,6 +315,13 @@ void MeasuredSweeps::shorten(const std::string& frame, PoseHistory& history) con
   }
   const Time oldest = history.newest().stamp - kMaxUpdateInterval;
   while (history.size() > 1 && history[1].number <= unswept && history[1].stamp <= oldest) history.forgetFirst();
+}
+
+void MeasuredSweeps::findJumps(const SpeedLimits& limits, std::vector<FrameJump>& jumps) const {
+  jumps.clear();
+  for (const auto& [frame, history] : histories_) {
+    if (const auto speed = jumpAfter(swept_to_, history, limits)) jumps.push_back({frame, *speed});
+  }
 }
 
 }  // namespace sweep_guard_core

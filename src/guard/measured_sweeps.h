@@ -24,7 +24,8 @@ struct SweepSetup {
   const Intentions& intentions = kNoIntentions;
   const AllowedPairs& allowed = kNoAllowedPairs;
   const FrameMotions& frames = kNoFrameMotions;  ///< of those that move on their own
-  bool several = false;  ///< the tool is one of several bodies: where it stays out of reach, it has no volumes
+  bool several = false;     ///< the tool is one of several bodies: where it stays out of reach, it has no volumes
+  SpeedLimits limits = {};  ///< faster motion is a jump
 };
 
 /// Sweeps one body of the tool along the measured poses; Guard says what is swept. Keeps the poses that may be swept again for
@@ -100,6 +101,7 @@ class MeasuredSweeps {
   void findSubMotions(const SweepSetup& setup, const PoseHistory& history, size_t first, size_t begin, size_t end);
   void forgetRemoved(const Workpieces& workpieces);
   void shorten(const std::string& frame, PoseHistory& history) const;
+  void findJumps(const SpeedLimits& limits, std::vector<FrameJump>& jumps) const;
 
   std::map<std::string, PoseHistory> histories_;  // by frame: the poses that may be swept again, and the newest
   std::map<std::string, JoinedMotion> joined_;    // by frame, of those that move on their own
@@ -108,7 +110,7 @@ class MeasuredSweeps {
   std::map<std::string, Replaced> replaced_;      // by id
   std::uint64_t poses_ = 0;                       // and samples of joined motions
   std::uint64_t swept_to_ = 0;                    // number of the pose of the last sweep
-  std::optional<Time> waiting_since_;             // stamp of the first pose passed since then
+  std::optional<SteadyTime> waiting_since_;       // when the first pose passed since then was received
   Path path_M_;                                   // of the segment under test
   std::vector<Motion> sub_motions_M_;             // of a motion along the segment
   SweepChecker sweep_checker_;

@@ -123,9 +123,10 @@ void addOpen(const WarningInputs& inputs, Warning& warning) {
 void addLoadReasons(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning) {
   const auto held = [&](const auto& event) { return event && now.steady - event->found <= limits.hold_time; };
   if (held(inputs.overload)) {
-    add(warning, kOverload, {"overload: poses of ", inSeconds(inputs.overload->span), " swept at once"});
+    add(warning, kOverload, {"overload: poses that waited for ", inSeconds(inputs.overload->waited), " swept at once"});
   }
   if (held(inputs.pose_loss)) add(warning, kPoseLoss, {inputs.pose_loss->message});
+  if (held(inputs.jump)) add(warning, kJump, {inputs.jump->message, ": what was reported may come from that"});
 }
 
 void addThreadReasons(const WarningInputs& inputs, Warning& warning) {

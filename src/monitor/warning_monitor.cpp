@@ -186,9 +186,21 @@ void WarningMonitor::swept(const SweepReport& report, const Timestamps& pose, co
     if (report.complete()) swept_until_ = report.end;
     if (updateContact(report, now, inputs_.contact)) warnings_->endAcknowledgements();
     updateIntended(report, inputs_.intended);
+    noteJump(report, now);
     if (report.backlog > limits_.overload) inputs_.overload = WarningInputs::Backlog{report.backlog, now};
   }
   if (!report.failures.empty()) on_fault_();
+}
+
+// What its source names goes before the frames that it is seen from.
+void WarningMonitor::noteJump(const SweepReport& report, SteadyTime now) {
+  if (!report.jump.empty()) {
+    inputs_.jump = WarningInputs::Event{report.jump, now};
+  } else if (!report.jumps.empty()) {
+    const auto slower = [](const FrameJump& a, const FrameJump& b) { return a.speed.speed < b.speed.speed; };
+    const FrameJump& jump = *std::max_element(report.jumps.begin(), report.jumps.end(), slower);
+    inputs_.jump = WarningInputs::Event{"the tool jumped against '" + jump.frame + "': " + inWords(jump.speed), now};
+  }
 }
 
 void WarningMonitor::predicted(const Prediction& prediction, const Timestamps& pose, const Checkpoint& checkpoint,
@@ -275,6 +287,7 @@ void WarningMonitor::restartLocked() {
   inputs_.pose.reset();
   inputs_.overload.reset();
   inputs_.pose_loss.reset();
+  inputs_.jump.reset();
   inputs_.intended.clear();
   warnings_->restart();
   faults_->restart();

@@ -35,6 +35,7 @@ static_assert(equal(Warning::DISABLED, sweep_guard_core::kDisabled));
 static_assert(equal(Warning::MULTI_PUBLISHER, sweep_guard_core::kMultiPublisher));
 static_assert(equal(Warning::POSE_LOSS, sweep_guard_core::kPoseLoss));
 static_assert(equal(Warning::INSIDE_UNTESTED, sweep_guard_core::kInsideUntested));
+static_assert(equal(Warning::JUMP, sweep_guard_core::kJump));
 static_assert(equal(Warning::POSES_UNSWEPT, sweep_guard_core::kPosesUnswept));
 static_assert(equal(Warning::MESH_DROPPED, sweep_guard_core::kMeshDropped));
 static_assert(equal(Warning::WORKER_HUNG, sweep_guard_core::kWorkerHung));

@@ -19,7 +19,7 @@ using Places = std::map<std::string, Eigen::Isometry3d>;
 
 // The tool at a place in each frame. Only the motion between them counts: the tool rests in W, the frames move.
 PoseWithFrames pose(double seconds, const Places& X_MT) {
-  PoseWithFrames pose{atSecond(seconds), SteadyTime{}, Eigen::Isometry3d::Identity(), {}};
+  PoseWithFrames pose{atSecond(seconds), SteadyTime(fromSeconds(seconds)), Eigen::Isometry3d::Identity(), {}};
   for (const auto& [frame, X] : X_MT) pose.X_WM[frame] = X.inverse();
   return pose;
 }
@@ -337,6 +337,25 @@ TEST_F(GuardTest, PassesThroughABacklogInOneSweep) {
   const SweepReport next = sweepTo(1.041, 0.46);
   EXPECT_EQ(next.start, atSecond(1.04));
   EXPECT_EQ(next.backlog, Duration::zero());
+}
+
+// The poses of 0.1 s, or of 30 s, that one message makes known have not waited: so do a root at 100 Hz and joints at 10 Hz.
+TEST_F(GuardTest, ABacklogIsTheTimeThatPosesWaitedWhateverTheirStamps) {
+  for (const double step : {0.001, 0.01, 3.0}) {
+    guard_.reset();
+    sweepTo(1.0, 0.5);
+    PoseWithFrames known = pose(1.0, {{"table", up(0.5)}});
+    known.received += std::chrono::milliseconds(5);
+    for (int i = 1; i < 10; ++i) {
+      known.stamp = atSecond(1.0 + step * i);
+      guard_.pass(known);
+    }
+    known.stamp = atSecond(1.0 + step * 10);
+    EXPECT_EQ(reportOf(guard_, known, table_).backlog, Duration::zero()) << step;
+    guard_.pass(known);
+    known.received += std::chrono::milliseconds(30);
+    EXPECT_EQ(reportOf(guard_, known, table_).backlog, std::chrono::milliseconds(30)) << "of one stamp";
+  }
 }
 
 // A millisecond down and one up again, wherever in the backlog.

@@ -131,6 +131,7 @@ class Guard {
   Guard(std::vector<Tool> bodies, std::shared_ptr<const Robot> robot, std::unique_ptr<Detector> detector,
         const GuardOptions& options);
 
+  void observe(const PoseWithFrames& pose);
   void orderBodies(const Workpieces& workpieces);
   void beginPlan(SteadyTime begin, const std::function<void()>& between);
   size_t consideredSweeps() const;
@@ -145,6 +146,7 @@ class Guard {
   MotionPredictor predictor_;
   std::unique_ptr<TimeBudget> budget_;
   std::optional<PoseWithFrames> newest_;  // pose of the last sweep
+  std::string jump_;                      // what jumped since then, in words
   PredictedMotion motion_;                // that is tested
   Duration interrupted_{};                // time for other things during this test
   Horizon horizon_;

@@ -28,6 +28,9 @@ struct PoseWithFrames {
       {};                             ///< [m], by name of M; a frame whose transform is missing is left out
   std::vector<BodyPose> bodies = {};  ///< of each body of the guarded tool; empty: it is one body, in T
   RobotState state = {};              ///< of the robot whose bodies these are; means nothing without any
+  /// What jumped on the way to this pose, in words, as in "joint 'elbow' jumped: 130 rad/s": the motion does not go on from
+  /// there. Empty: nothing did.
+  std::string jump = {};
 
   BodyPose body(size_t i) const { return bodies.empty() ? BodyPose{X_WT} : bodies[i]; }
 };

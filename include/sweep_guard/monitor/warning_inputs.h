@@ -58,7 +58,7 @@ struct WarningInputs {
   };
   /// Poses that waited and were swept at once. `found`: when.
   struct Backlog {
-    Duration span{};  ///< from the first to the last of these poses
+    Duration waited{};  ///< the first of these poses
     SteadyTime found;
   };
   /// Something that is reported for a while after `found`.
@@ -84,6 +84,7 @@ struct WarningInputs {
   Time covered_until;                 ///< every workpiece is tested up to here, measured or predicted; epoch: never
   std::optional<Backlog> overload;    ///< newest backlog that exceeded the limit
   std::optional<Event> pose_loss;     ///< newest poses that were sent and did not arrive
+  std::optional<Event> jump;          ///< newest motion that is too fast to be believed, in words
   std::optional<Event> unread;        ///< newest message on a mesh topic that belongs to no workpiece
   std::vector<std::string> required;  ///< ids of the workpieces that must be there: ascending
   std::optional<SteadyTime> waiting_since;  ///< when the oldest pose that is not yet swept was received

@@ -133,7 +133,8 @@ class WarningMonitor {
   void setWorkpieces(const Workpieces& workpieces, std::optional<SteadyTime> now = {});
 
   /// Reports a sweep to a pose, and clears the faults from before the pose's checkpoint. Does nothing if the monitor
-  /// was restarted since the checkpoint. Each failure in the report becomes a new fault, kDetectorFault.
+  /// was restarted since the checkpoint. Each failure in the report becomes a new fault, kDetectorFault. The warning tells of
+  /// jumps in the report for the hold time; its level stays.
   /// @param checkpoint  taken when the pose was received
   void swept(const SweepReport& report, const Timestamps& pose, const Checkpoint& checkpoint, SteadyTime now);
 
@@ -220,6 +221,7 @@ class WarningMonitor {
   std::string whyNotAcknowledgedLocked(const std::string& id, const Instant& now) const;
   std::string refusal(const std::vector<std::string>& ids = {}) const;
   void meets(const Workpiece& workpiece, const std::vector<std::uint32_t>& triangles, SteadyTime now);
+  void noteJump(const SweepReport& report, SteadyTime now);
   void addFailures(const std::vector<SweepFailure>& failures, const char* what);
   void beginCoverage(const Prediction& prediction);
   WarningInputs inputsAbout(const std::vector<std::string>& ids) const;

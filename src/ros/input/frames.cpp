@@ -5,6 +5,7 @@
 
 #include "common/heartbeat.h"
 #include "ros/gate.h"
+#include "ros/input/tf_chain.h"
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/ros/conversions.h"
 
@@ -54,6 +55,7 @@ void Frames::onTransforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& ev
       check(transform);
       if (!is_static) checkStamp(transform.header.stamp);
       countFrames(transform);
+      if (!is_static) notePublisher(transform, event.getPublisherName());
       buffer_.setTransform(transform, printable(event.getPublisherName()), is_static);
       if (is_static) checkStatic(transform);
     } catch (const std::bad_alloc&) {
@@ -73,6 +75,22 @@ void Frames::checkStamp(const ros::Time& stamp) {
   const std::lock_guard lock(clock_mutex_);
   const std::string refusal = clock_.refusal(fromMsg(stamp), now());
   if (!refusal.empty()) throw sweep_guard_core::InvalidInput(refusal);
+}
+
+void Frames::notePublisher(const geometry_msgs::TransformStamped& transform, const std::string& node) {
+  publishers_.add(
+      withoutSlash(transform.child_frame_id), node,
+      {fromMsg(transform.header.stamp), withoutSlash(transform.header.frame_id), fromMsg(transform.transform)},
+      std::chrono::steady_clock::now());
+}
+
+std::string Frames::conflict(const std::string& target, const std::set<std::string>& sources) const {
+  for (const auto& [frame, text, found] : publishers_.conflicts(std::chrono::steady_clock::now())) {
+    for (const std::string& source : sources) {
+      if (liesBetween(frame, withoutSlash(target), withoutSlash(source), buffer_)) return text;
+    }
+  }
+  return {};
 }
 
 void Frames::checkStatic(const geometry_msgs::TransformStamped& transform) {

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "ros/bounded.h"
+#include "ros/input/frame_publishers.h"
 #include "ros/input/transform_clock.h"
 #include "ros/log_throttle.h"
 #include "ros/threads/queue_thread.h"
@@ -56,18 +57,25 @@ class Frames {
   /// Any thread.
   void checkClock();
 
+  /// Returns what is wrong with a transform between a frame and one of others that several nodes publish (FramePublishers), in
+  /// words; empty: nothing.
+  std::string conflict(const std::string& target, const std::set<std::string>& sources) const;
+  bool hasConflicts() const { return publishers_.hasConflicts(); }  ///< of any frames; without a lock
+
   /// Calls back after every transform, in the thread of the listener, until the handle is destroyed.
   std::shared_ptr<void> onChange(std::function<void()> callback);
 
  private:
   void onTransforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& event, bool is_static);
   void checkStamp(const ros::Time& stamp);
+  void notePublisher(const geometry_msgs::TransformStamped& transform, const std::string& node);
   void checkStatic(const geometry_msgs::TransformStamped& transform);
   void countFrames(const geometry_msgs::TransformStamped& transform);
 
   const std::function<void(const std::string&, const std::string&)> on_static_change_;
   std::map<std::string, geometry_msgs::TransformStamped> static_transforms_;  // by child; used by the listener only
   std::set<std::string> known_;                                               // frames in the buffer
+  FramePublishers publishers_;
   LogThrottle log_;
   std::mutex clock_mutex_;  // of the next one
   TransformClock clock_;

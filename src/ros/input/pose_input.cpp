@@ -66,11 +66,13 @@ PoseInput::PoseInput(const ros::NodeHandle& node, const LiveParameters& live, co
       tool_frame_(live.initial().tool_frame),
       source_(sourceOf(node, live.initial())),
       allow_several_publishers_(live.initial().allow_several_publishers),
+      tool_in_tf_(live.initial().tool_source != ToolSource::kTopic),
       frames_(dependencies.frames),
       workpieces_(dependencies.workpieces),
       monitor_(dependencies.monitor),
       queue_(dependencies.queue),
-      frame_motions_(dependencies.frame_motions) {
+      frame_motions_(dependencies.frame_motions),
+      jumps_(live) {
   if (live.initial().articulated) {
     articulated_ = std::make_unique<ArticulatedTool>(live);
     joints_ = subscribeBounded<sensor_msgs::JointState>(
@@ -117,8 +119,19 @@ void PoseInput::pushKnownPoses(sweep_guard_core::SteadyTime received) {
   while (articulated_->next(frame, known_)) {
     if (articulated_->leavesOut()) monitor_.fault(sweep_guard_core::kPosesUnswept, kPassed);
     record_.received({known_.back().stamp, received});
-    for (ArticulatedTool::Pose& pose : known_) push(received, std::move(pose));
+    const std::string jump = jumpTo(known_.back());
+    for (ArticulatedTool::Pose& pose : known_) {
+      pose.jump = jump;
+      push(received, std::move(pose));
+    }
   }
+}
+
+std::string PoseInput::jumpTo(const ArticulatedTool::Pose& state) {
+  std::string jump = jumps_.jumpTo(state);
+  const std::string faster = jumps_.faster();
+  if (!faster.empty()) record_.warn(faster);
+  return jump;
 }
 
 // A publisher that does not count, or begins again, loses nothing.
@@ -135,6 +148,17 @@ void PoseInput::countLost(const std::string& publisher, std::uint32_t sequence) 
 
 bool PoseInput::hasSeveralPublishers() const {
   return subscriber_ && !allow_several_publishers_ && subscriber_.getNumPublishers() > 1;
+}
+
+// Of the frames that place the tool or a workpiece.
+void PoseInput::reportConflict() {
+  if (allow_several_publishers_ || !frames_.hasConflicts()) return;
+  std::set<std::string> placed = *workpieces_.frames();
+  placed.insert(tool_in_tf_ ? tool_frame_ : pose_frame_);
+  const std::string conflict = frames_.conflict(fixed_frame_, placed);
+  if (conflict.empty()) return;
+  monitor_.fault(sweep_guard_core::kMultiPublisher, conflict);
+  log_.error("conflict", conflict);
 }
 
 // Runs in the thread of the tf listener, which must not wait for transforms: only reads the pose.
@@ -174,15 +198,18 @@ void PoseInput::begin() {
   if (!checkpoint.continues(checkpoint_)) {
     previous_stamp_.reset();
     if (articulated_) articulated_->reset();
+    jumps_.reset();
   }
   checkpoint_ = checkpoint;
   // After the checkpoint: the sweep to this pose does not end the fault.
   if (hasSeveralPublishers()) {
     monitor_.fault(sweep_guard_core::kMultiPublisher, "several nodes publish tool poses on " + source_);
   }
+  reportConflict();
 }
 
 void PoseInput::accept(const ReceivedPose& pose) {
+  pose_frame_ = pose.frame;
   begin();
   const auto& [stamp, received] = pose.timestamps;
   requireStamp(stamp);
@@ -191,7 +218,11 @@ void PoseInput::accept(const ReceivedPose& pose) {
   }
   const Eigen::Isometry3d X_WT = lookup(fixed_frame_, pose.frame, stamp) * pose.X_FT;
   previous_stamp_ = stamp;
-  if (!articulated_) return push(pose.timestamps.received, {pose.timestamps.stamp, X_WT, {}, {}});
+  if (!articulated_) {
+    ArticulatedTool::Pose known{stamp, X_WT, {}, {}};
+    known.jump = jumpTo(known);
+    return push(received, std::move(known));
+  }
   articulated_->add(stamp, X_WT);
   pushKnownPoses(received);
   const std::string silence = articulated_->silence(stamp);
@@ -199,9 +230,10 @@ void PoseInput::accept(const ReceivedPose& pose) {
 }
 
 void PoseInput::push(sweep_guard_core::SteadyTime received, ArticulatedTool::Pose pose) {
-  auto& [stamp, X_WT, bodies, state] = pose;
+  auto& [stamp, X_WT, bodies, state, jump] = pose;
   auto frames = locate(*workpieces_.frames(), stamp);
-  if (queue_.push({{stamp, received, X_WT, std::move(frames), std::move(bodies), std::move(state)}, checkpoint_}))
+  if (queue_.push({{stamp, received, X_WT, std::move(frames), std::move(bodies), std::move(state), std::move(jump)},
+                   checkpoint_}))
     return;
   monitor_.fault(sweep_guard_core::kPosesUnswept, "tool poses were dropped: too many wait to be swept");
 }

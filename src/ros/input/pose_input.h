@@ -16,6 +16,7 @@
 #include "ros/bounded.h"
 #include "ros/input/articulated_tool.h"
 #include "ros/input/frames.h"
+#include "ros/input/jump_watch.h"
 #include "ros/log_throttle.h"
 #include "ros/parameters/parameters.h"
 #include "ros/threads/queue_thread.h"
@@ -56,6 +57,7 @@ class PoseInput {
   void onMessage(const ros::MessageEvent<const geometry_msgs::PoseStamped>& event);
   void countLost(const std::string& publisher, std::uint32_t sequence);
   bool hasSeveralPublishers() const;
+  void reportConflict();
   void onTransforms();
   template <typename Accept>
   void refuseWhatFails(const Accept& accept);
@@ -63,6 +65,7 @@ class PoseInput {
   void acceptJoints(const ros::MessageEvent<const sensor_msgs::JointState>& event);
   void begin();
   void pushKnownPoses(sweep_guard_core::SteadyTime received);
+  std::string jumpTo(const ArticulatedTool::Pose& state);
   void push(sweep_guard_core::SteadyTime received, ArticulatedTool::Pose pose);
   std::map<std::string, Eigen::Isometry3d> locate(const std::set<std::string>& mesh_frames,
                                                   sweep_guard_core::Time stamp);
@@ -74,6 +77,7 @@ class PoseInput {
   const std::string tool_frame_;
   const std::string source_;
   const bool allow_several_publishers_;
+  const bool tool_in_tf_;
   Frames& frames_;
   const sweep_guard_core::WorkpieceStore& workpieces_;
   sweep_guard_core::WarningMonitor& monitor_;
@@ -82,6 +86,8 @@ class PoseInput {
 
   sweep_guard_core::WarningMonitor::Checkpoint checkpoint_;  // of the previous pose
   std::optional<sweep_guard_core::Time> previous_stamp_;
+  std::string pose_frame_;  // of the newest pose
+  JumpWatch jumps_;
   std::optional<sweep_guard_core::Time> last_transform_;  // used by the tf listener's thread only
   // Missing transforms by target and source, each with the stamp of the newest one that there was.
   std::map<std::pair<std::string, std::string>, std::optional<sweep_guard_core::Time>> missing_;

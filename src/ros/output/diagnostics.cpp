@@ -125,6 +125,8 @@ void Diagnostics::input(Status& status, const Input& input, Counts& previous) co
                    "nothing received on " + input.source);
   }
   if (record.refused > previous.refused) status.summary(DiagnosticStatus::ERROR, "refused: " + record.last_error);
+  const bool warned = !record.last_warning.empty() && record.warning_time > previous.time;
+  if (warned) status.mergeSummary(DiagnosticStatus::WARN, record.last_warning);
   previous = {record.received, record.refused, at.steady};
 
   status.add("source", input.source);
