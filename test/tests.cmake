@@ -6,6 +6,9 @@ function(sweep_guard_label test)
   if(slow IN_LIST ARGN)
     set_tests_properties(${test} PROPERTIES COST 30)
   endif()
+  if(NOT ros IN_LIST ARGN)  # it keeps a processor busy; what starts a master waits for most of the time
+    set_tests_properties(${test} PROPERTIES PROCESSORS 2)
+  endif()
 endfunction()
 
 # The main program, and the headers that are precompiled for the tests.
@@ -84,14 +87,34 @@ function(sweep_guard_ros_gtest target)
   sweep_guard_label(_ctest_${PROJECT_NAME}_gtest_${target} unit)
 endfunction()
 
-# sweep_guard_rostest(NAME [SOURCE...]) - NAME.test with the program that it runs, NAME_test.cpp
-function(sweep_guard_rostest name)
+# sweep_guard_rostest_program(NAME [SOURCE...]) - NAME.test with a program of its own, NAME_test.cpp
+function(sweep_guard_rostest_program name)
   add_rostest_gtest(${name}_test ${name}.test ${name}_test.cpp ${ARGN})
   sweep_guard_ros_target(${name}_test)
   target_include_directories(${name}_test PRIVATE ${PROJECT_SOURCE_DIR}/test)
   sweep_guard_share_probe_headers(${name}_test)
   target_link_libraries(${name}_test sweep_guard_probe)
+  sweep_guard_label_rostest(${name} ros)
+endfunction()
+
+# sweep_guard_rostest(NAME [SOURCE...]) - NAME.test, which names the files of its tests to the program ros_test: NAME_test and
+# others. What fifty programs would read is read seven times
+function(sweep_guard_rostest name)
+  file(READ ${name}.test launch)
+  foreach(source ${name}_test.cpp ${ARGN})
+    target_sources(ros_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/${source})
+    get_filename_component(file ${source} NAME_WE)
+    if(file MATCHES "_test$" AND NOT launch MATCHES "ros_test\" args=\"([^\"]* )?(--gtest_filter|${file}[ \"])")
+      message(FATAL_ERROR "${name}.test does not name ${file}: nothing would run its tests")
+    endif()
+  endforeach()
+  add_rostest(${name}.test DEPENDENCIES ros_test)
+  sweep_guard_label_rostest(${name} ros)
+endfunction()
+
+# sweep_guard_label_rostest(NAME LABEL...) - of NAME.test in the folder of the caller
+function(sweep_guard_label_rostest name)
   file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
   string(REPLACE / _ folder ${folder})
-  sweep_guard_label(_ctest_${PROJECT_NAME}_rostest_${folder}_${name}.test ros)
+  sweep_guard_label(_ctest_${PROJECT_NAME}_rostest_${folder}_${name}.test ${ARGN})
 endfunction()

@@ -2,6 +2,8 @@
 import numpy
 
 MAX_COORDINATE = 1e7  # [m] as of the guard
+MAX_ROUNDING = 0.01  # [m] as of the guard
+COARSE_ROUNDING = 0.001  # [m] from which on the diagnostics of the guard say it
 
 
 def _checked_rows(name, row, rows):
@@ -20,6 +22,18 @@ def checked_vertices(vertices):
     if len(bad):
         raise ValueError(f'vertex {bad[0]} is {positions[bad[0]].tolist()}: give finite meters, at most 1e7')
     return positions
+
+
+def float32_rounding(positions):
+    """Returns how far a vertex [m] may be from its position once that is sent as float32: half a step on each axis."""
+    largest = numpy.abs(positions).max(axis=0).astype(numpy.float32)
+    return float(numpy.linalg.norm(0.5 * numpy.spacing(largest).astype(numpy.float64)))
+
+
+def coarse_text(mesh_id, rounding):
+    """Returns in words that the coordinates of a workpiece are large for float32."""
+    return (f"float32 rounds the coordinates of '{mesh_id}' by up to {1e3 * rounding:.1f} mm: "
+            'send them in a frame near the workpiece')
 
 
 def checked_faces(faces, vertex_count):

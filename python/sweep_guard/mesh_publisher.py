@@ -8,7 +8,8 @@ import numpy
 import rospy
 from sweep_guard.msg import DeformableMesh, MeshVertices
 
-from .mesh_arrays import checked_faces, checked_vertices
+from .mesh_arrays import (COARSE_ROUNDING, MAX_ROUNDING, checked_faces, checked_vertices, coarse_text,
+                          float32_rounding)
 
 _MAX_WORKPIECES = 1000  # that a guard watches; the meshes of all may wait for one connection
 _MAX_NAME_LENGTH = 128  # [bytes]
@@ -103,6 +104,8 @@ class MeshPublisher(rospy.SubscribeListener):
     def deform(self, vertices: Rows, stamp: Optional[rospy.Time] = None) -> None:
         """Publishes new positions [m] of all vertices of the published mesh, in their order. Sends float32.
 
+        From coordinates of about 30 km on, float32 rounds them by more than 1 mm, which is logged; by more than 10 mm
+        from about 130 km on, which is refused. Choose a frame near the workpiece.
         Raises ValueError, and sends nothing, if the guard would refuse them.
         """
         vertices = checked_vertices(vertices)
@@ -112,6 +115,7 @@ class MeshPublisher(rospy.SubscribeListener):
             if len(vertices) != self._vertex_count:
                 raise ValueError(f"{len(vertices)} vertices, but '{self.mesh_id}' has {self._vertex_count}: "
                                  'call publish(vertices, faces) when the triangles change')
+            self._check_rounding(vertices)
             update = self._fill(_PackedVertices(), stamp)
             update.pack(vertices)
             self._vertices.publish(update)
@@ -126,6 +130,13 @@ class MeshPublisher(rospy.SubscribeListener):
         with self._publishing:
             if self._newest is not None:
                 peer_publish(self._newest)
+
+    def _check_rounding(self, vertices):
+        rounding = float32_rounding(vertices)
+        if rounding > MAX_ROUNDING:
+            raise ValueError(coarse_text(self.mesh_id, rounding))
+        if rounding >= COARSE_ROUNDING:
+            rospy.logwarn_throttle(60.0, coarse_text(self.mesh_id, rounding))
 
     def _count_revision(self, faces, vertex_count):
         same = self._faces is not None and vertex_count == self._vertex_count and numpy.array_equal(faces, self._faces)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "common/xyz.h"
@@ -42,10 +43,18 @@ Eigen::Vector3d centerOf(const std::vector<Eigen::Vector3d>& points) {
   return box.center();
 }
 
+double halfStep(double coordinate) {
+  const auto kept = static_cast<float>(coordinate);
+  const float next = std::nextafter(kept, std::numeric_limits<float>::infinity());
+  return 0.5 * (static_cast<double>(next) - static_cast<double>(kept));
+}
+
 }  // namespace
 
+double float32Rounding(const Eigen::Vector3d& largest) { return largest.unaryExpr(&halfStep).norm(); }
+
 TriangleMesh::TriangleMesh(const std::vector<Eigen::Vector3d>& vertices_M, std::vector<Triangle> triangles,
-                           SurfaceKind surface) {
+                           SurfaceKind surface, double rounded) {
   checkTriangles(triangles, vertices_M.size());
   for (size_t i = 0; i < vertices_M.size(); ++i) {
     for (const double coordinate : xyz(vertices_M[i])) {
@@ -62,6 +71,7 @@ TriangleMesh::TriangleMesh(const std::vector<Eigen::Vector3d>& vertices_M, std::
   }
   Enclosure enclosure = surface == SurfaceKind::kSheet ? Enclosure() : Enclosure(sent, triangles);
   MeshOrder order = orderOf(sent, triangles);
+  rounding_ += rounded;
   topology_ =
       std::make_shared<const Topology>(Topology{std::move(triangles), surface, std::move(enclosure), std::move(order)});
   exchange(sent);
@@ -100,7 +110,8 @@ void TriangleMesh::deform(std::vector<float>& positions_M) {
   checkCount(positions_M);
   if (!exchange(positions_M)) refuse(positions_M);
   origin_.setZero();
-  rounding_ = 0.0;
+  const Eigen::AlignedBox3d& bounds = blocks_.bounds();
+  rounding_ = float32Rounding(bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs()));
 }
 
 }  // namespace sweep_guard_core

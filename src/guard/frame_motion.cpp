@@ -76,8 +76,7 @@ FrameKnot wentOn(const FrameMotion& motion, Time time) {
   const Vector6d way = seconds * motion.velocity();
   FrameKnot knot{time, newest.X_WM, Matrix6d::Zero(), 0.0};
   const Eigen::Vector3d turn = way.tail<3>();
-  if (!turn.isZero(0.0))
-    knot.X_WM.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()) * newest.X_WM.linear();
+  if (!turn.isZero(0.0)) knot.X_WM.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()) * newest.X_WM.linear();
   knot.X_WM.translation() += way.head<3>();
   knot.covariance.diagonal() << Eigen::Vector3d::Constant(way.head<3>().squaredNorm() / 3.0),
       Eigen::Vector3d::Constant(turn.squaredNorm() / 3.0);
@@ -119,7 +118,8 @@ void forgetBefore(Time pose, std::vector<FramePose>& measured) {
   const Time from = std::min(pose, measured.back().stamp - kKept);
   const auto is_needed = [&](const FramePose& one) { return one.stamp > from; };
   const auto needed = std::find_if(measured.begin(), measured.end(), is_needed);
-  const auto kept = std::min<std::ptrdiff_t>(needed - measured.begin() - 1, static_cast<std::ptrdiff_t>(measured.size()) - 2);
+  const auto kept =
+      std::min<std::ptrdiff_t>(needed - measured.begin() - 1, static_cast<std::ptrdiff_t>(measured.size()) - 2);
   if (kept > 0) measured.erase(measured.begin(), measured.begin() + kept);
 }
 

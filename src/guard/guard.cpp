@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "guard/displacements.h"
 #include "guard/intended_contact.h"
@@ -44,6 +45,7 @@ void assign(PoseWithFrames& to, const PoseWithFrames& from) {
   to.X_WT = from.X_WT;
   to.bodies = from.bodies;
   to.state = from.state;
+  to.jump = from.jump;
   to.anew = from.anew;
   to.drifts = from.drifts;
   auto next = from.X_WM.begin();
@@ -144,18 +146,30 @@ void Guard::sweepBodies(const PoseWithFrames& pose, SweepReport& report, const S
   displacements_->forgetUnused();
   forEachBody(bodies_, swept_order_, &GuardedBody::report, report,
               [&](size_t i, GuardedBody& body, SweepReport& swept) {
-                const SweepSetup setup{
-                    body.tool,     *detector_,       options_.sweep, *displacements_,   [this] { throwIfStopping(); },
-                    *intentions(), options_.allowed, *frames_,       bodies_.size() > 1};
+                const SweepSetup setup{body.tool,
+                                       *detector_,
+                                       options_.sweep,
+                                       *displacements_,
+                                       [this] { throwIfStopping(); },
+                                       *intentions(),
+                                       options_.allowed,
+                                       *frames_,
+                                       bodies_.size() > 1,
+                                       {options_.predictor.max_speed, options_.predictor.max_turn_rate}};
                 sweep(i, body, setup, swept);
                 body.touches.update(swept, pose, pose.body(i).X_WB, body.tool, *intentions());
               });
+  report.jump = std::exchange(jump_, {});
   budget_->spentOnMeasured(options_.clock() - begin);
 }
 
-// What is placed anew goes back to the pose before: nothing that moves is observed there.
+// What is placed anew goes back to the pose before: nothing that moves is observed there. What jumps does not go on as it jumped.
 void Guard::observe(const PoseWithFrames& pose) {
   if (pose.anew && pose.anew->tool) predictor_.restartTool();
+  if (!pose.jump.empty()) {
+    predictor_.restart();
+    jump_ = pose.jump;
+  }
   if (!pose.anew) predictor_.observe(pose);
 }
 
@@ -287,6 +301,7 @@ void Guard::reset() {
   }
   predictor_.restart();
   newest_.reset();
+  jump_.clear();
 }
 
 void Guard::exchange(GuardChange& change) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "guard/frame_jumps.h"
 #include "guard/out_of_reach.h"
 #include "guard/placed_workpieces.h"
 #include "guard/rigid_shape.h"
@@ -73,7 +74,7 @@ void leaveOut(const SweepSetup& setup, bool has_new_poses, SweepCache& cache, Sw
 
 void MeasuredSweeps::pass(const PoseWithFrames& pose, const BodyPose& body, const FrameMotions& frames) {
   add(pose, body, frames);
-  if (!waiting_since_) waiting_since_ = pose.stamp;
+  if (!waiting_since_) waiting_since_ = pose.received;
 }
 
 void MeasuredSweeps::add(const PoseWithFrames& pose, const BodyPose& body, const FrameMotions& frames) {
@@ -96,8 +97,7 @@ void MeasuredSweeps::join(const FrameMotions& frames) {
   for (const auto& [frame, motion] : frames) {
     joined_[frame].join(*motion, samples_);
     for (const JoinedMotion::Sample& sample : samples_)
-      histories_[frame].add({++poses_, sample.stamp, sample.X_WB, sample.X_WM, sample.deviation_bound,
-                             sample.anew});
+      histories_[frame].add({++poses_, sample.stamp, sample.X_WB, sample.X_WM, sample.deviation_bound, sample.anew});
   }
 }
 
@@ -124,15 +124,18 @@ void MeasuredSweeps::begin(const Workpieces& workpieces) {
     swept.before = swept.pose;
     swept.grown = false;
   }
+  for (auto replaced = replaced_.begin(); replaced != replaced_.end();)
+    replaced = replaced->second.reported ? replaced_.erase(replaced) : std::next(replaced);
 }
 
 void MeasuredSweeps::sweepJoined(const SweepSetup& setup, const PoseWithFrames& pose, const Workpieces& workpieces,
                                  SweepReport& report) {
   join(setup.frames);
+  findJumps(setup.limits, report.jumps);
   report.start = report.end = pose.stamp;
   const auto is_placed = [&](const Workpiece& workpiece) { return isPlaced(workpiece.frame, pose, setup.frames); };
   testPlaced(workpieces, is_placed, report, [&](const auto& workpiece, SweptObject& object) {
-    sweepObject(setup, workpiece, pose.stamp, object);
+    sweepObject(setup, workpiece, lastSwept(workpiece), pose.stamp, object);
     report.start = std::min(report.start, object.interval_start);
   });
   // Their next sweep begins where this one would have begun.
@@ -140,19 +143,37 @@ void MeasuredSweeps::sweepJoined(const SweepSetup& setup, const PoseWithFrames& 
     Swept& swept = lastSwept(workpiece);
     swept.before = swept.pose;
   }
+  sweepReplaced(setup, pose, report);
   for (auto& [frame, history] : histories_) shorten(frame, history);
-  report.backlog = pose.stamp - waiting_since_.value_or(pose.stamp);
+  report.backlog = pose.received - waiting_since_.value_or(pose.received);
   waiting_since_.reset();
   report.passed_over = std::exchange(passed_over_, {});
   swept_to_ = poses_;
 }
 
+// What fails is swept to the next pose.
+void MeasuredSweeps::sweepReplaced(const SweepSetup& setup, const PoseWithFrames& pose, SweepReport& report) {
+  report.replaced.clear();
+  for (auto& [id, replaced] : replaced_) {
+    const auto workpiece = replaced.swept.deformations.back();
+    if (!isPlaced(workpiece->frame, pose, setup.frames)) continue;
+    SweptObject& object = report.replaced.emplace_back();
+    try {
+      sweepObject(setup, workpiece, replaced.swept, pose.stamp, object);
+      report.start = std::min(report.start, object.interval_start);
+      replaced.reported = true;
+    } catch (const std::exception& error) {  // of the detector, or no memory
+      report.replaced.pop_back();
+      report.failures.push_back({workpiece, error.what()});
+    }
+  }
+}
+
 // @param end_time  of the interval that times of impact are fractions of
 void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<const Workpiece>& workpiece,
-                                 Time end_time, SweptObject& object) {
+                                 Swept& swept, Time end_time, SweptObject& object) {
   const PoseHistory& history = histories_.at(workpiece->frame);
   const size_t last = history.size() - 1;
-  Swept& swept = lastSwept(workpiece);
   swept.before = swept.pose;
   const size_t begin = history.lastUpTo(swept.pose);
   const auto& from = deformationAt(history[begin].stamp, *workpiece, swept, object.behind);
@@ -231,6 +252,14 @@ const std::shared_ptr<const Workpiece>& MeasuredSweeps::deformationAt(Time pose,
   return from;
 }
 
+// Of those that came meanwhile, only the newest is swept besides the one that was swept last.
+void MeasuredSweeps::replace(Swept& swept, const std::shared_ptr<const Workpiece>& workpiece) {
+  Swept next{{workpiece}, swept.pose};
+  const auto [place, is_first] = replaced_.try_emplace(workpiece->id);
+  std::swap(swept, next);
+  if (is_first) place->second.swept = std::move(next);
+}
+
 // A workpiece with other triangles, or in another frame, has not been swept since the last pose.
 MeasuredSweeps::Swept& MeasuredSweeps::lastSwept(const std::shared_ptr<const Workpiece>& workpiece) {
   const auto entry = swept_.find(workpiece->id);
@@ -239,8 +268,9 @@ MeasuredSweeps::Swept& MeasuredSweeps::lastSwept(const std::shared_ptr<const Wor
   const Workpiece& before = *swept.deformations.back();
   if (before.frame != workpiece->frame) {
     swept = {{workpiece}, swept_to_};
+    replaced_.erase(workpiece->id);
   } else if (!sameTriangles(before.mesh_M, workpiece->mesh_M)) {
-    swept = {{workpiece}, swept.pose};
+    replace(swept, workpiece);
   }
   return swept;
 }
@@ -272,6 +302,10 @@ void MeasuredSweeps::takeBack() noexcept {
     if (swept.grown) swept.deformations.pop_back();
     swept.grown = false;
   }
+  for (auto& [id, replaced] : replaced_) {
+    replaced.swept.pose = replaced.swept.before;
+    replaced.reported = false;
+  }
 }
 
 void MeasuredSweeps::reset() {
@@ -279,11 +313,13 @@ void MeasuredSweeps::reset() {
   joined_.clear();
   passed_over_.clear();
   swept_.clear();
+  replaced_.clear();
   waiting_since_.reset();
 }
 
 void MeasuredSweeps::forgetContacts() {
   for (auto& [id, swept] : swept_) swept.cache = {};
+  for (auto& [id, replaced] : replaced_) replaced.swept.cache = {};
 }
 
 // A workpiece that appears later in an empty frame was not there when the tool moved.
@@ -298,6 +334,7 @@ void MeasuredSweeps::forgetRemoved(const Workpieces& workpieces) {
   keepOnlyNamed(histories_, &Workpiece::frame);
   keepOnlyNamed(joined_, &Workpiece::frame);
   keepOnlyNamed(swept_, &Workpiece::id);
+  keepOnlyNamed(replaced_, &Workpiece::id);
 }
 
 // Keeps the poses that a mesh update may need, and those along which some workpiece has not been swept yet.
@@ -306,8 +343,18 @@ void MeasuredSweeps::shorten(const std::string& frame, PoseHistory& history) con
   for (const auto& [id, swept] : swept_) {
     if (swept.deformations.back()->frame == frame) unswept = std::min(unswept, swept.before);
   }
+  for (const auto& [id, replaced] : replaced_) {
+    if (replaced.swept.deformations.back()->frame == frame) unswept = std::min(unswept, replaced.swept.before);
+  }
   const Time oldest = history.newest().stamp - kMaxUpdateInterval;
   while (history.size() > 1 && history[1].number <= unswept && history[1].stamp <= oldest) history.forgetFirst();
+}
+
+void MeasuredSweeps::findJumps(const SpeedLimits& limits, std::vector<FrameJump>& jumps) const {
+  jumps.clear();
+  for (const auto& [frame, history] : histories_) {
+    if (const auto speed = jumpAfter(swept_to_, history, limits)) jumps.push_back({frame, *speed});
+  }
 }
 
 }  // namespace sweep_guard_core

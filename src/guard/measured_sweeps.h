@@ -25,7 +25,8 @@ struct SweepSetup {
   const Intentions& intentions = kNoIntentions;
   const AllowedPairs& allowed = kNoAllowedPairs;
   const FrameMotions& frames = kNoFrameMotions;  ///< of those that move on their own
-  bool several = false;  ///< the tool is one of several bodies: where it stays out of reach, it has no volumes
+  bool several = false;     ///< the tool is one of several bodies: where it stays out of reach, it has no volumes
+  SpeedLimits limits = {};  ///< faster motion is a jump
 };
 
 /// Sweeps one body of the tool along the measured poses; Guard says what is swept. Keeps the poses that may be swept again for
@@ -38,7 +39,8 @@ class MeasuredSweeps {
   void pass(const PoseWithFrames& pose, const BodyPose& body, const FrameMotions& frames = kNoFrameMotions);
 
   /// Sweeps through the poses passed since the last sweep to this pose. Against a workpiece in a frame that moves on its own,
-  /// up to the newest pose of that frame, if that is older.
+  /// up to the newest pose of that frame, if that is older. A workpiece that has other triangles is swept with the new ones, and
+  /// for the last time with those from before.
   /// @param[out] report  overwritten; its buffers are used again
   void sweep(const SweepSetup& setup, const PoseWithFrames& pose, const BodyPose& body, const Workpieces& workpieces,
              SweepReport& report);
@@ -68,6 +70,12 @@ class MeasuredSweeps {
     bool grown = false;        // the last sweep has added a deformation
   };
 
+  // A workpiece with the triangles that were replaced, until it is swept to a pose at which it has the new ones.
+  struct Replaced {
+    Swept swept;
+    bool reported = false;  // by the last sweep
+  };
+
   // Poses to be swept against one workpiece, from motion to motion. Those before `begin` were swept when its deformation was not
   // known yet.
   struct Segment {
@@ -90,26 +98,30 @@ class MeasuredSweeps {
                    SweepReport& report);
   void join(const FrameMotions& frames);
   bool isPlaced(const std::string& frame, const PoseWithFrames& pose, const FrameMotions& frames) const;
-  void sweepObject(const SweepSetup& setup, const std::shared_ptr<const Workpiece>& workpiece, Time end_time,
-                   SweptObject& object);
+  void sweepObject(const SweepSetup& setup, const std::shared_ptr<const Workpiece>& workpiece, Swept& swept,
+                   Time end_time, SweptObject& object);
+  void sweepReplaced(const SweepSetup& setup, const PoseWithFrames& pose, SweepReport& report);
   void sweepMotions(const SweepSetup& setup, const Segment& segment, SweptObject& object);
   void sweepSegment(const SweepSetup& setup, const Segment& segment, SweptObject& object);
   static const std::shared_ptr<const Workpiece>& deformationAt(Time pose, const Workpiece& newest, Swept& swept,
                                                                Duration& behind);
+  void replace(Swept& swept, const std::shared_ptr<const Workpiece>& workpiece);
   Swept& lastSwept(const std::shared_ptr<const Workpiece>& workpiece);
   size_t endOfMotion(const SweepSetup& setup, size_t begin, size_t last) const;
   void findSubMotions(const SweepSetup& setup, const PoseHistory& history, size_t first, size_t begin, size_t end);
   void forgetRemoved(const Workpieces& workpieces);
   void shorten(const std::string& frame, PoseHistory& history) const;
+  void findJumps(const SpeedLimits& limits, std::vector<FrameJump>& jumps) const;
 
   std::map<std::string, PoseHistory> histories_;  // by frame: the poses that may be swept again, and the newest
   std::map<std::string, JoinedMotion> joined_;    // by frame, of those that move on their own
   std::vector<JoinedMotion::Sample> samples_;     // of one of these
   std::map<std::string, Swept> swept_;            // by id
+  std::map<std::string, Replaced> replaced_;      // by id
   std::uint64_t poses_ = 0;                       // and samples of joined motions
   std::set<std::string> passed_over_;             // frames for which poses waited in vain since the last sweep
   std::uint64_t swept_to_ = 0;                    // number of the pose of the last sweep
-  std::optional<Time> waiting_since_;             // stamp of the first pose passed since then
+  std::optional<SteadyTime> waiting_since_;       // when the first pose passed since then was received
   Path path_M_;                                   // of the segment under test
   std::vector<Motion> sub_motions_M_;             // of a motion along the segment
   SweepChecker sweep_checker_;

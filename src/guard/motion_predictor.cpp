@@ -10,15 +10,10 @@ constexpr double kReflexDeviation = 5e-4;      // [m], of a body from a Motion
 constexpr double kConsideredDeviation = 5e-3;  // [m]
 constexpr size_t kMostParts = 4;               // of a step
 
-// Those that mimic a joint may move otherwise than it does.
 std::vector<PredictableJoint> jointsOf(const KinematicTree& tree) {
   std::vector<PredictableJoint> joints;
   for (const JointVariable& variable : tree.variables())
-    joints.push_back({true, variable.continuous, variable.lower, variable.upper});
-  for (const TreeLink& link : tree.links()) {
-    if (link.type == JointType::kPrismatic && link.joint == tree.variables()[link.variable].name)
-      joints[link.variable].turns = false;
-  }
+    joints.push_back({tree.turns(joints.size()), variable.continuous, variable.lower, variable.upper});
   return joints;
 }
 

@@ -25,6 +25,12 @@ std::optional<size_t> firstPiece(const SweepResult& sweep) {
   return first == sweep.in_contact.end() ? std::nullopt : std::optional(first->piece);
 }
 
+template <typename Is>
+bool anyOf(const SweepReport& report, const Is& is) {
+  return std::any_of(report.objects.begin(), report.objects.end(), is) ||
+         std::any_of(report.replaced.begin(), report.replaced.end(), is);
+}
+
 }  // namespace
 
 PathResult checkPath(Detector& detector, const PathRequest& request) {
@@ -54,12 +60,11 @@ double SweepReport::margin() const {
 }
 
 bool SweepReport::contact() const {
-  return std::any_of(objects.begin(), objects.end(), [](const SweptObject& object) { return object.result.contact(); });
+  return anyOf(*this, [](const SweptObject& object) { return object.result.contact(); });
 }
 
 bool SweepReport::unintendedContact() const {
-  return std::any_of(objects.begin(), objects.end(),
-                     [](const SweptObject& object) { return object.result.unintendedContact(); });
+  return anyOf(*this, [](const SweptObject& object) { return object.result.unintendedContact(); });
 }
 
 bool SweepReport::complete() const {

@@ -1,6 +1,8 @@
 #include "guard/workpiece_store.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 
 #include "guard/rigid_shape.h"
 #include "sweep_guard/common/error.h"
@@ -26,8 +28,32 @@ void requireRevision(const Workpiece& attached, std::uint32_t revision) {
   if (revision != attached.revision) throw attachedAnd(attached.id, "its revision has changed");
 }
 
-void requireShape(const Workpiece& attached, const RigidFit& fit) {
-  if (fit.deviation <= WorkpieceStore::kRigid) return;
+// Beyond that, positions are too coarse for a contact.
+void requireFine(const Eigen::Vector3d& largest) {
+  const double rounding = float32Rounding(largest);
+  if (!(rounding > kMaxSentRounding)) return;
+  std::array<char, 96> text;
+  std::snprintf(text.data(), text.size(), "float32 rounds coordinates of %.0f km by up to %.0f mm",
+                1e-3 * largest.maxCoeff(), 1e3 * rounding);
+  throw InvalidInput(std::string(text.data()) + ": send the vertices in a frame near the workpiece");
+}
+
+Eigen::Vector3d largestOf(const std::vector<float>& positions) {
+  const auto vertices = static_cast<Eigen::Index>(positions.size() / 3);
+  return Eigen::Map<const Eigen::Matrix3Xf>(positions.data(), 3, vertices)
+      .cwiseAbs()
+      .rowwise()
+      .maxCoeff()
+      .cast<double>();
+}
+
+Eigen::Vector3d largestOf(const TriangleMesh& mesh_M) {
+  const Eigen::AlignedBox3d bounds_M = mesh_M.bounds_M();
+  return bounds_M.min().cwiseAbs().cwiseMax(bounds_M.max().cwiseAbs());
+}
+
+void requireShape(const Workpiece& attached, const RigidFit& fit, double rounding) {
+  if (fit.deviation <= WorkpieceStore::rigidWithin(attached.mesh_M.rounding() + rounding)) return;
   throw attachedAnd(attached.id, "it deforms by " + std::to_string(fit.deviation) + " m");
 }
 
@@ -40,7 +66,7 @@ UpdateOutcome WorkpieceStore::set(Workpiece next, Time latest) {
     const Workpiece& workpiece = *held->workpiece;
     if (!sameTriangles(workpiece.mesh_M, next.mesh_M)) throw attachedAnd(next.id, "it has other triangles");
     requireRevision(workpiece, next.revision);
-    requireShape(workpiece, rigidFit(workpiece.mesh_M, next.mesh_M));
+    requireShape(workpiece, rigidFit(workpiece.mesh_M, next.mesh_M), next.mesh_M.rounding());
     return UpdateOutcome::kStored;
   }
   const auto current = find(next.id);
@@ -64,7 +90,9 @@ UpdateOutcome WorkpieceStore::deform(const Deformation& deformation, Time latest
     const Workpiece& workpiece = *held->workpiece;
     requireRevision(workpiece, deformation.revision);
     workpiece.mesh_M.checkCount(deformation.positions_M);
-    requireShape(workpiece, rigidFit(workpiece.mesh_M, deformation.positions_M));
+    const Eigen::Vector3d largest = largestOf(deformation.positions_M);
+    requireFine(largest);
+    requireShape(workpiece, rigidFit(workpiece.mesh_M, deformation.positions_M), float32Rounding(largest));
     return UpdateOutcome::kStored;
   }
   const auto current = find(deformation.id);
@@ -79,6 +107,7 @@ UpdateOutcome WorkpieceStore::deform(const Deformation& deformation, Time latest
   std::vector<float>& positions_M = buffers_[deformation.id].positions_M;
   positions_M.assign(deformation.positions_M.begin(), deformation.positions_M.end());
   next->mesh_M.deform(positions_M);
+  requireFine(largestOf(next->mesh_M));
   next->revision = deformation.revision;
   next->stamp = deformation.stamp;
   next->received = deformation.received;

@@ -43,7 +43,12 @@ enum class UpdateOutcome {
 /// kRigid, set() and deform() return kStored and change nothing; otherwise they throw InvalidInput. remove() finds nothing.
 class WorkpieceStore {
  public:
-  static constexpr double kRigid = 1e-3;  ///< distance of a vertex from the shape that an attached workpiece keeps [m]
+  static constexpr double kRigid =
+      1e-3;  ///< distance of a vertex from the shape that an attached workpiece keeps [m], rounding apart
+
+  /// Returns how far a vertex may be from a shape that is kept [m]. Where the shape is found to be is rounded, too.
+  /// @param rounding  of the positions of both [m]
+  static double rigidWithin(double rounding) { return kRigid + 2.0 * rounding; }
 
   using OnChange = std::function<void(const Workpieces&)>;
 

@@ -17,6 +17,11 @@ void assignTriangles(const std::vector<TriangleContact>& contacts, TriangleSet& 
   for (const TriangleContact& contact : contacts) triangles.push_back(contact.triangle);
 }
 
+bool jumps(const SweepReport& report, const std::string& frame) {
+  const auto same = [&](const FrameJump& jump) { return jump.frame == frame; };
+  return std::any_of(report.jumps.begin(), report.jumps.end(), same);
+}
+
 bool isOfTheSameTriangles(const Workpiece& a, const Workpiece& b) {
   return a.revision == b.revision && sameTriangles(a.mesh_M, b.mesh_M);
 }
@@ -29,12 +34,10 @@ void TouchMap::add(const SweepReport& report, const Workpieces& workpieces) {
     Touched& touched = touchedOf(object.workpiece);
     findTouched(object.result);
     if (in_sweep_.empty()) continue;
-    count(touched);
-    for (const auto* const contacts : {&object.result.in_contact, &object.result.allowed.in_contact}) {
-      for (const TriangleContact& contact : *contacts) {
-        float& depth = touched.of_triangle[contact.triangle].depth;
-        depth = std::fmax(depth, static_cast<float>(contact.impact.depth));
-      }
+    if (jumps(report, object.workpiece->frame)) {
+      unite(touched.jump_triangles, in_sweep_);
+    } else {
+      count(object.result, touched);
     }
     newest_ = report.end;
     ++changes_;
@@ -50,12 +53,13 @@ void TouchMap::clear() {
 void TouchMap::touches(std::vector<ObjectTouches>& objects) const {
   size_t count = 0;
   for (const auto& [id, touched] : touched_) {
-    if (touched.triangles.empty()) continue;
+    if (touched.empty()) continue;
     if (count == objects.size()) objects.emplace_back();
     ObjectTouches& object = objects[count++];
     object.id = id;
     object.revision = touched.workpiece->revision;
     object.triangles.clear();
+    object.jump_triangles = touched.jump_triangles;
     for (const std::uint32_t triangle : touched.triangles) {
       const TouchCount& touch = touched.of_triangle[triangle];
       object.triangles.push_back({triangle, touch.sweeps, touch.depth});
@@ -68,7 +72,7 @@ void TouchMap::forgetRemoved(const Workpieces& workpieces) {
   for (auto touched = touched_.begin(); touched != touched_.end();) {
     const auto same = [&](const auto& workpiece) { return workpiece->id == touched->first; };
     const bool there = std::any_of(workpieces.begin(), workpieces.end(), same);
-    if (!there && !touched->second.triangles.empty()) ++changes_;
+    if (!there && !touched->second.empty()) ++changes_;
     touched = there ? std::next(touched) : touched_.erase(touched);
   }
 }
@@ -86,9 +90,10 @@ TouchMap::Touched& TouchMap::touchedOf(const std::shared_ptr<const Workpiece>& w
 }
 
 void TouchMap::beginAnew(Touched& touched) {
-  if (touched.triangles.empty()) return;
+  if (touched.empty()) return;
   for (const std::uint32_t triangle : touched.triangles) touched.of_triangle[triangle] = {};
   touched.triangles.clear();
+  touched.jump_triangles.clear();
   ++changes_;
 }
 
@@ -103,7 +108,7 @@ void TouchMap::findTouched(const SweepResult& result) {
   unite(in_sweep_, allowed_);
 }
 
-void TouchMap::count(Touched& touched) const {
+void TouchMap::count(const SweepResult& result, Touched& touched) const {
   for (const std::uint32_t triangle : in_sweep_) {
     TouchCount& touch = touched.of_triangle[triangle];
     if (touch.sweeps == 0) {
@@ -111,6 +116,12 @@ void TouchMap::count(Touched& touched) const {
       touched.triangles.push_back(triangle);
     }
     if (touch.sweeps < std::numeric_limits<std::uint32_t>::max()) ++touch.sweeps;
+  }
+  for (const auto* const contacts : {&result.in_contact, &result.allowed.in_contact}) {
+    for (const TriangleContact& contact : *contacts) {
+      float& depth = touched.of_triangle[contact.triangle].depth;
+      depth = std::fmax(depth, static_cast<float>(contact.impact.depth));
+    }
   }
 }
 

@@ -47,6 +47,13 @@ KinematicTree::KinematicTree(std::vector<JointVariable> variables, std::vector<T
   }
 }
 
+bool KinematicTree::turns(size_t variable) const {
+  const auto slides = [&](const TreeLink& link) {
+    return link.type == JointType::kPrismatic && link.variable == variable && link.joint == variables_[variable].name;
+  };
+  return std::none_of(links_.begin(), links_.end(), slides);
+}
+
 std::vector<double> KinematicTree::nearestToZero() const {
   std::vector<double> positions;
   for (const JointVariable& variable : variables_) {

@@ -18,6 +18,8 @@ class InputRecord {
     std::optional<Timestamps> newest;  ///< newest message; empty: none yet
     std::string last_error;            ///< empty: none
     SteadyTime error_time;             ///< time of the last error
+    std::string last_warning = {};     ///< of something odd that costs nothing; empty: none
+    SteadyTime warning_time = {};      ///< time of the last warning
   };
 
   void received(const Timestamps& message) {
@@ -32,6 +34,12 @@ class InputRecord {
     summary_.refused += refused ? 1 : 0;
     summary_.last_error = reason;
     summary_.error_time = std::chrono::steady_clock::now();
+  }
+
+  void warn(const std::string& warning) {
+    const std::lock_guard lock(mutex_);
+    summary_.last_warning = warning;
+    summary_.warning_time = std::chrono::steady_clock::now();
   }
 
   Summary summary() const {

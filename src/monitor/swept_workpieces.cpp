@@ -18,6 +18,12 @@ std::optional<size_t> firstPiece(const SweepResult& result) {
   return first == nullptr ? std::nullopt : std::optional(first->piece);
 }
 
+const SweptObject* firstMet(const std::vector<SweptObject>& objects) {
+  const auto meets = [](const SweptObject& object) { return object.result.unintendedContact(); };
+  const auto met = std::find_if(objects.begin(), objects.end(), meets);
+  return met == objects.end() ? nullptr : &*met;
+}
+
 bool notSwept(const SweepReport& report, const std::string& id) {
   const auto unplaced = [&](const auto& workpiece) { return workpiece->id == id; };
   const auto failed = [&](const SweepFailure& failure) { return failure.workpiece->id == id; };
@@ -38,10 +44,18 @@ bool holds(const Workpieces& workpieces, const Workpiece& workpiece) {
   return one != nullptr && one->frame == workpiece.frame && &one->mesh_M.triangles() == &workpiece.mesh_M.triangles();
 }
 
-void SweptWorkpieces::set(const Workpieces& newest) {
+void SweptWorkpieces::set(const Workpieces& newest, std::optional<SteadyTime> now) {
+  stand_ins_.update(newest_, newest, now);
   newest_ = newest;
   forgetDroppedOfGone();
   updateObjects();
+}
+
+bool SweptWorkpieces::allCount(const Workpieces& tested, SteadyTime now) const {
+  const auto counts = [&](const auto& workpiece) {
+    return holds(tested, *workpiece) || now <= stand_ins_.until(tested, *workpiece).value_or(SteadyTime::min());
+  };
+  return std::all_of(newest_.begin(), newest_.end(), counts);
 }
 
 bool SweptWorkpieces::drop(const std::string& id, SteadyTime received) {
@@ -86,6 +100,7 @@ void SweptWorkpieces::updateObjects() {
     object.ages = !workpiece.of_other_tool;
     object.open_edges = workpiece.mesh_M.openEdges();
     object.swept = holds(swept_, workpiece);
+    object.stands_in_until = object.swept ? std::nullopt : stand_ins_.until(swept_, workpiece);
     object.dropped = dropped_.count(workpiece.id) != 0;
   }
 }
@@ -100,9 +115,9 @@ void SweptWorkpieces::updateBehind(const SweepReport& report) {
 
 bool updateContact(const SweepReport& report, SteadyTime now, std::optional<WarningInputs::Contact>& contact) {
   if (contact) contact->lasting = contact->lasting && notSwept(report, contact->id);
-  const auto meets = [](const SweptObject& object) { return object.result.unintendedContact(); };
-  const auto met = std::find_if(report.objects.begin(), report.objects.end(), meets);
-  if (met == report.objects.end()) return false;
+  const SweptObject* met = firstMet(report.objects);
+  if (met == nullptr) met = firstMet(report.replaced);
+  if (met == nullptr) return false;
   if (!contact) contact = WarningInputs::Contact{};
   contact->id = met->workpiece->id;
   contact->triangles = met->result.not_ruled_out;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "monitor/stand_ins.h"
 #include "sweep_guard/guard/sweep.h"
 #include "sweep_guard/monitor/warning_inputs.h"
 
@@ -18,8 +19,12 @@ class SweptWorkpieces {
   explicit SweptWorkpieces(WarningInputs& inputs) : inputs_(inputs) {}
 
   /// @param newest  snapshots of all workpieces, ascending by id
-  void set(const Workpieces& newest);
+  /// @param now     as for StandIns::update()
+  void set(const Workpieces& newest, std::optional<SteadyTime> now);
   const Workpieces& newest() const { return newest_; }
+
+  /// Returns whether each of the newest, or triangles that stand in for it, is among these.
+  bool allCount(const Workpieces& tested, SteadyTime now) const;
 
   /// Keeps that an update was dropped until a later one is swept.
   /// @returns false if there is no such workpiece
@@ -34,6 +39,7 @@ class SweptWorkpieces {
 
   WarningInputs& inputs_;
   Workpieces newest_;
+  StandIns stand_ins_;
   Workpieces swept_;                           // at the newest pose
   std::map<std::string, SteadyTime> dropped_;  // by id: when the newest dropped update was received
 };
@@ -44,8 +50,8 @@ const Workpiece* findWorkpiece(const Workpieces& workpieces, const std::string& 
 /// Returns whether the workpiece is among these, with its triangles and frame.
 bool holds(const Workpieces& workpieces, const Workpiece& workpiece);
 
-/// Takes over what a sweep met other than intended: of several workpieces, the first reported. Without a contact the one
-/// before is over, unless its workpiece could not be swept.
+/// Takes over what a sweep met other than intended: of several workpieces, the first reported, and those replaced only if there
+/// is no other. Without a contact the one before is over, unless its workpiece could not be swept.
 /// @returns whether the sweep met one
 bool updateContact(const SweepReport& report, SteadyTime now, std::optional<WarningInputs::Contact>& contact);
 

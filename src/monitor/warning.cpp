@@ -83,7 +83,7 @@ void addObjectReasons(const WarningInputs& inputs, const Instant& now, const War
                 {"workpiece '", object.id, "' is ", inSeconds(age(object.timestamps, now)), " old"});
     }
     if (object.dropped) addObject(warning, kMeshDropped, {"vertices of workpiece '", object.id, "' were dropped"});
-    if (!inputs.pose || object.swept) continue;
+    if (!inputs.pose || object.swept || now.steady <= object.stands_in_until.value_or(SteadyTime::min())) continue;
     if (object.behind > Duration::zero()) {
       addObject(warning, kNotSwept,
                 {"tool poses are ", inSeconds(object.behind), " behind workpiece '", object.id, "'"});
@@ -134,9 +134,10 @@ void addOpen(const WarningInputs& inputs, Warning& warning) {
 void addLoadReasons(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning) {
   const auto held = [&](const auto& event) { return event && now.steady - event->found <= limits.hold_time; };
   if (held(inputs.overload)) {
-    add(warning, kOverload, {"overload: poses of ", inSeconds(inputs.overload->span), " swept at once"});
+    add(warning, kOverload, {"overload: poses that waited for ", inSeconds(inputs.overload->waited), " swept at once"});
   }
   if (held(inputs.pose_loss)) add(warning, kPoseLoss, {inputs.pose_loss->message});
+  if (held(inputs.jump)) add(warning, kJump, {inputs.jump->message, ": what was reported may come from that"});
 }
 
 void addThreadReasons(const WarningInputs& inputs, Warning& warning) {

@@ -179,9 +179,9 @@ void WarningMonitor::posesLost(const std::string& message, SteadyTime now) {
   on_fault_();
 }
 
-void WarningMonitor::setWorkpieces(const Workpieces& workpieces) {
+void WarningMonitor::setWorkpieces(const Workpieces& workpieces, std::optional<SteadyTime> now) {
   const std::lock_guard lock(mutex_);
-  workpieces_->set(workpieces);
+  workpieces_->set(workpieces, now);
   warnings_->endAcknowledgementsOfGone(workpieces);
 }
 
@@ -201,9 +201,21 @@ void WarningMonitor::swept(const SweepReport& report, const Timestamps& pose, co
     if (report.complete()) swept_until_ = report.end;
     if (updateContact(report, now, inputs_.contact)) warnings_->endAcknowledgements();
     updateIntended(report, inputs_.intended);
+    noteJump(report, now);
     if (report.backlog > limits_.overload) inputs_.overload = WarningInputs::Backlog{report.backlog, now};
   }
   if (!report.failures.empty()) on_fault_();
+}
+
+// What its source names goes before the frames that it is seen from.
+void WarningMonitor::noteJump(const SweepReport& report, SteadyTime now) {
+  if (!report.jump.empty()) {
+    inputs_.jump = WarningInputs::Event{report.jump, now};
+  } else if (!report.jumps.empty()) {
+    const auto slower = [](const FrameJump& a, const FrameJump& b) { return a.speed.speed < b.speed.speed; };
+    const FrameJump& jump = *std::max_element(report.jumps.begin(), report.jumps.end(), slower);
+    inputs_.jump = WarningInputs::Event{"the tool jumped against '" + jump.frame + "': " + inWords(jump.speed), now};
+  }
 }
 
 void WarningMonitor::sweptBeforeJump(const SweepReport& report, const Checkpoint& checkpoint, SteadyTime now) {
@@ -249,9 +261,7 @@ Time WarningMonitor::coveredUntil(const Instant& now) const {
   if (!coverage_ || coverage_->pose.stamp > swept_until_ || stale(coverage_->pose, now, limits_.pose_timeout)) {
     return swept_until_;
   }
-  const Workpieces& newest = workpieces_->newest();
-  const auto tested = [&](const auto& workpiece) { return holds(coverage_->tested, *workpiece); };
-  const bool all = std::all_of(newest.begin(), newest.end(), tested);
+  const bool all = workpieces_->allCount(coverage_->tested, now.steady);
   return all ? std::max(swept_until_, coverage_->covered_until) : swept_until_;
 }
 
@@ -312,6 +322,7 @@ void WarningMonitor::restartLocked() {
   inputs_.pose.reset();
   inputs_.overload.reset();
   inputs_.pose_loss.reset();
+  inputs_.jump.reset();
   inputs_.intended.clear();
   warnings_->restart();
   faults_->restart();

@@ -1,7 +1,6 @@
 #include "sweep_guard/motion/motion_guard.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/motion/velocity_limiter.h"
@@ -10,11 +9,6 @@ namespace sweep_guard_core {
 namespace {
 
 constexpr size_t kBalls = 4096;  // before buffers grow
-
-double distance(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double radius) {
-  const double angle = Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();
-  return (a.translation() - b.translation()).norm() + radius * angle;
-}
 
 void requireUsable(const MotionGuardOptions& options) {
   BrakingLimits limits;
@@ -87,8 +81,8 @@ void MotionGuard::limit(const MotionInputs& inputs, const MotionCommand& command
   UncoveredSurfaces uncovered = inputs.planes->uncovered;
   // Planes are carried by the newest pose. A distance as a whole cannot be: any point may have come nearer.
   const double radius = radiusAbout(Eigen::Vector3d::Zero(), *inputs.tool);
-  uncovered.distance -= std::max(distance(inputs.planes->X_WT, inputs.pose->X_WT, radius),
-                                 distance(inputs.planes->X_WT, expected_WT, radius));
+  uncovered.distance -= std::max(farthestWay(inputs.planes->X_WT, inputs.pose->X_WT, radius),
+                                 farthestWay(inputs.planes->X_WT, expected_WT, radius));
 
   motion.twist_W = motion.decision.permission == Permission::kLimited
                        ? limiter_.limit(command.twist_W, facing_, uncovered, limits)

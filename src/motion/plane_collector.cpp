@@ -27,12 +27,11 @@ void PlaneCollector::add(Facing& facing, const SeparatedTriangle& separated) {
   const size_t number = planes_->size();
   if (separated.gap > 0.0) facing.cover.add(separated.normal_T, separated.normal_T.dot(point_T), number);
   const double drift = facing.surface->drift;
-  planes_->push_back(
-      {{facing.piece, X_WT_.linear() * separated.normal_T, X_WT_ * (point_T + drift * separated.normal_T),
-        separated.gap - step - drift, -kInfinity},
-       facing.surface->workpiece,
-       separated.triangle,
-       separated.gap <= 0.0});
+  planes_->push_back({{facing.piece, X_WT_.linear() * separated.normal_T,
+                       X_WT_ * (point_T + drift * separated.normal_T), separated.gap - step - drift, -kInfinity},
+                      facing.surface->workpiece,
+                      separated.triangle,
+                      separated.gap <= 0.0});
   quicken(number, facing, mesh_M.triangles()[separated.triangle]);
 }
 
@@ -42,7 +41,8 @@ bool PlaneCollector::join(const Facing& facing, const SeparatedTriangle& separat
   SeparatingPlane& plane = best->plane;
   const PointHull hull(facing.cover.corners_T(facing.corners(separated.triangle)));
   const Eigen::Vector3d top_W = X_WT_ * hull.supportPoint(normal_T(plane));
-  const double step = std::max(0.0, plane.normal_W.dot(top_W - plane.point_W) + facing.mesh().rounding() + facing.surface->drift);
+  const double step =
+      std::max(0.0, plane.normal_W.dot(top_W - plane.point_W) + facing.mesh().rounding() + facing.surface->drift);
   moveOn(plane, step);
   quicken(static_cast<size_t>(best - planes_->data()), facing, facing.mesh().triangles()[separated.triangle]);
   return true;

@@ -1,11 +1,24 @@
 #include "sweep_guard/motion/plane_set.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
 
 namespace sweep_guard_core {
+namespace {
+
+constexpr double kBeyond = 1e-6;  // of a plane [m]: a pose that was limited may lie in it
+
+double leastGap(const SeparatingPlane& plane, const std::vector<ToolBall>& balls_T, const Eigen::Isometry3d& X_WT) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const ToolBall& ball : balls_T)
+    least = std::min(least, plane.normal_W.dot(X_WT * ball.center_T - plane.point_W) - ball.radius);
+  return least;
+}
+
+}  // namespace
 
 double radiusAbout(const Eigen::Vector3d& p_T, const ToolBalls& tool) {
   double radius = 0.0;
@@ -19,6 +32,24 @@ bool belongsTo(const PlaneSet& planes, const ToolBalls& tool) {
   return planes.tool_revision == tool.revision &&
          std::all_of(planes.planes.begin(), planes.planes.end(),
                      [&](const SeparatingPlane& plane) { return plane.piece < tool.pieces.size(); });
+}
+
+double farthestWay(const Eigen::Isometry3d& from_WT, const Eigen::Isometry3d& to_WT, double radius) {
+  const double angle = Eigen::AngleAxisd(from_WT.linear().transpose() * to_WT.linear()).angle();
+  return (from_WT.translation() - to_WT.translation()).norm() + radius * angle;
+}
+
+bool passesASurface(const PlaneSet& planes, const ToolBalls& tool, const Eigen::Isometry3d& from_WT,
+                    const Eigen::Isometry3d& to_WT) {
+  const double radius = radiusAbout(Eigen::Vector3d::Zero(), tool);
+  const auto reaches = [&](const Eigen::Isometry3d& X_WT) {
+    return farthestWay(planes.X_WT, X_WT, radius) > planes.uncovered.distance + kBeyond;
+  };
+  if (reaches(to_WT) && !reaches(from_WT)) return true;
+  return std::any_of(planes.planes.begin(), planes.planes.end(), [&](const SeparatingPlane& plane) {
+    const std::vector<ToolBall>& balls_T = tool.pieces[plane.piece];
+    return leastGap(plane, balls_T, to_WT) < -kBeyond && leastGap(plane, balls_T, from_WT) >= 0.0;
+  });
 }
 
 void requireUsable(const PlaneSet& planes) {

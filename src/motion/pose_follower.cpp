@@ -2,57 +2,67 @@
 
 #include <cassert>
 
-#include "sweep_guard/common/error.h"
+#include "motion/rotation_vector.h"
 
 namespace sweep_guard_core {
 namespace {
 
-// Returns the rotation vector of R in W [rad], at most pi long.
-Eigen::Vector3d rotationVector(const Eigen::Matrix3d& R) {
-  const Eigen::AngleAxisd turn(R);
-  return turn.angle() * turn.axis();
-}
-
-Eigen::Matrix3d rotationOf(const Eigen::Vector3d& vector) {
-  const double angle = vector.norm();
-  if (!(angle > 0.0)) return Eigen::Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle, vector / angle).toRotationMatrix();
-}
-
-bool clip(Eigen::Vector3d& velocity, double limit) {
-  const double speed = velocity.norm();
-  if (speed <= limit) return false;
-  velocity *= limit / speed;
-  return true;
+PoseLeash::Options leashOf(const PoseFollower::Options& options) {
+  return {options.max_speed, options.max_turn_rate, options.dead_time, options.time_constant, options.deceleration};
 }
 
 }  // namespace
 
-PoseFollower::PoseFollower(const Options& options) : options_(options) {
-  if (!(options.max_speed > 0.0)) throw InvalidInput("largest speed of commanded poses: must be > 0 m/s");
-  if (!(options.max_turn_rate > 0.0)) throw InvalidInput("largest turn rate of commanded poses: must be > 0 rad/s");
-}
+PoseFollower::PoseFollower(const Options& options) : options_(options), leash_(leashOf(options)) {}
 
 void PoseFollower::begin(const Eigen::Isometry3d& X_WT) {
+  end();
   sent_WT_ = X_WT;
-  reached_ = false;
-  rebase();
 }
 
 void PoseFollower::end() {
   sent_WT_.reset();
+  tool_WT_.reset();
+  leash_.clear();
+  held_ = false;
   reached_ = false;
   rebase();
 }
 
+void PoseFollower::observe(const PoseLeash::Observation& tool) {
+  assert(begun());
+  tool_WT_ = tool.X_WT;
+  leash_.observe(tool, *sent_WT_);
+  if (!held_ || !leash_.follows()) sent_WT_ = leash_.within(*sent_WT_);
+}
+
+void PoseFollower::takeBack() {
+  assert(tool_WT_);
+  sent_WT_ = *tool_WT_;
+}
+
+const Eigen::Isometry3d& PoseFollower::hold(bool tool_is_known) {
+  assert(begun());
+  if (!held_ && tool_is_known && tool_WT_) sent_WT_ = leash_.rest(*sent_WT_);
+  held_ = true;
+  reached_ = false;
+  return *sent_WT_;
+}
+
+Eigen::Isometry3d PoseFollower::goalOf(const Eigen::Isometry3d& command_WT) const {
+  if (options_.mode == PoseMode::kAbsolute) return command_WT;
+  const Eigen::Isometry3d& before_WT = command_WT_ ? *command_WT_ : command_WT;
+  Eigen::Isometry3d goal_WT = *sent_WT_;
+  goal_WT.translation() += command_WT.translation() - before_WT.translation();
+  goal_WT.linear() = command_WT.linear() * before_WT.linear().transpose() * sent_WT_->linear();
+  return goal_WT;
+}
+
 Twist PoseFollower::towards(const Eigen::Isometry3d& command_WT, Duration period) {
   assert(begun());
-  goal_WT_ = command_WT;
-  if (options_.mode == PoseMode::kIncremental) {
-    const Eigen::Isometry3d& before_WT = command_WT_ ? *command_WT_ : command_WT;
-    goal_WT_.translation() = sent_WT_->translation() + (command_WT.translation() - before_WT.translation());
-    goal_WT_.linear() = command_WT.linear() * before_WT.linear().transpose() * sent_WT_->linear();
-  }
+  const Eigen::Isometry3d goal_WT = goalOf(command_WT);
+  goal_WT_ = tool_WT_ ? leash_.within(goal_WT) : goal_WT;
+  is_command_ = options_.mode == PoseMode::kAbsolute && goal_WT_.matrix() == command_WT.matrix();
   const bool moves = options_.mode == PoseMode::kAbsolute || command_WT_;
   command_WT_ = command_WT;
   period_ = period;
@@ -61,22 +71,22 @@ Twist PoseFollower::towards(const Eigen::Isometry3d& command_WT, Duration period
   if (!moves) return wanted_W_;
   wanted_W_.v_W = (goal_WT_.translation() - sent_WT_->translation()) / toSeconds(period);
   wanted_W_.w_W = rotationVector(goal_WT_.linear() * sent_WT_->linear().transpose()) / toSeconds(period);
-  const bool too_far = clip(wanted_W_.v_W, options_.max_speed);
-  const bool too_turned = clip(wanted_W_.w_W, options_.max_turn_rate);
+  const bool too_far = shorten(wanted_W_.v_W, options_.max_speed);
+  const bool too_turned = shorten(wanted_W_.w_W, options_.max_turn_rate);
   leads_there_ = !too_far && !too_turned;
   return wanted_W_;
 }
 
 const Eigen::Isometry3d& PoseFollower::moveOn(const Twist& let_through_W) {
   const bool reached = leads_there_ && let_through_W == wanted_W_;
-  reached_ = reached && options_.mode == PoseMode::kAbsolute;
+  reached_ = reached && is_command_;
+  held_ = false;
   if (reached) {
     sent_WT_ = goal_WT_;
   } else {
     const double seconds = toSeconds(period_);
-    const Eigen::Matrix3d R_WT = rotationOf(seconds * let_through_W.w_W) * sent_WT_->linear();
     sent_WT_->translation() += seconds * let_through_W.v_W;
-    sent_WT_->linear() = Eigen::Quaterniond(R_WT).normalized().toRotationMatrix();
+    sent_WT_->linear() = turnedBy(sent_WT_->linear(), seconds * let_through_W.w_W);
   }
   return *sent_WT_;
 }

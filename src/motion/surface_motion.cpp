@@ -19,8 +19,8 @@ double intervalBetween(const Workpiece& before, const Workpiece& now) {
 
 }  // namespace
 
-void SurfaceMotion::update(const std::shared_ptr<const Workpiece>& workpiece, const Eigen::Isometry3d& X_WM,
-                           Time stamp, const std::optional<Vector6d>& velocity_W) {
+void SurfaceMotion::update(const std::shared_ptr<const Workpiece>& workpiece, const Eigen::Isometry3d& X_WM, Time stamp,
+                           const std::optional<Vector6d>& velocity_W) {
   const bool known = workpiece_ && workpiece_->frame == workpiece->frame;
   if (velocity_W) {
     moveFrame(X_WM, *velocity_W);
@@ -52,7 +52,8 @@ void SurfaceMotion::moveFrame(const Eigen::Isometry3d& X_WM, const Vector6d& vel
   const Eigen::Matrix3d R_MW = X_WM.linear().transpose();
   const Eigen::Vector3d turning_M = R_MW * velocity_W.tail<3>();
   translation_M_ = R_MW * velocity_W.head<3>();
-  turning_M_ << 0.0, -turning_M.z(), turning_M.y(), turning_M.z(), 0.0, -turning_M.x(), -turning_M.y(), turning_M.x(), 0.0;
+  turning_M_ << 0.0, -turning_M.z(), turning_M.y(), turning_M.z(), 0.0, -turning_M.x(), -turning_M.y(), turning_M.x(),
+      0.0;
 }
 
 // Meshes that share their triangles keep their vertices at the same places.

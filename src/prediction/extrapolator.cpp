@@ -33,6 +33,7 @@ class PolynomialExtrapolator : public Extrapolator<Space> {
   typename Fit::Curve curve_;
   Time newest_;
   Vector coordinates_ = Vector::Zero();
+  double trust_ = 0.0;
 };
 
 template <typename Space>
@@ -51,11 +52,12 @@ void PolynomialExtrapolator<Space>::observe(const MotionTracker<Space>& tracker)
   curve_ = fit_.curve(degrees);
   newest_ = tracker.newest().stamp;
   coordinates_ = tracker.coordinates();
+  trust_ = tracker.trustIn(fit_.span());
 }
 
 template <typename Space>
 typename Space::Vector PolynomialExtrapolator<Space>::displacementIn(double ahead) const {
-  return curve_.at(newest_ + fromSeconds(ahead)) - coordinates_;
+  return trust_ * (curve_.at(newest_ + fromSeconds(ahead)) - coordinates_);
 }
 
 template <typename Space>

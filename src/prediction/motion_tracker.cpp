@@ -9,6 +9,7 @@ constexpr auto kGap = std::chrono::milliseconds(250);
 constexpr Duration kMaxGap = std::chrono::seconds(1);
 constexpr Duration kMinPeriod = std::chrono::microseconds(500);  // too short to compute a speed
 constexpr Duration kJitter = std::chrono::milliseconds(10);      // error of a stamp that does not make a jump
+constexpr Duration kSpan = std::chrono::milliseconds(20);        // that samples need that come in bursts
 
 }  // namespace
 
@@ -27,6 +28,7 @@ typename MotionTracker<Space>::Step MotionTracker<Space>::add(const Sample& samp
     samples_ += corrects ? 0 : 1;
   }
   if (!corrects) period_ = period > kMaxGap ? Duration::zero() : period;
+  if (step_ == Step::kContinues) notePeriod(toSeconds(period));
   const Time stamp = step_ == Step::kCorrects ? newest_.stamp : sample.stamp;
   newest_ = sample;
   newest_.stamp = stamp;
@@ -36,6 +38,25 @@ typename MotionTracker<Space>::Step MotionTracker<Space>::add(const Sample& samp
 template <typename Space>
 bool MotionTracker<Space>::gap(Duration period) const {
   return period > std::clamp<Duration>(3 * period_, kGap, kMaxGap);
+}
+
+// A pause counts for about as long as a gap lasts.
+template <typename Space>
+void MotionTracker<Space>::notePeriod(double seconds) {
+  const double kept = std::max(0.0, 1.0 - seconds / toSeconds(kGap));
+  longest_period_ = std::max(seconds, kept * longest_period_);
+}
+
+// Half a period: regular samples are farther apart, whatever their jitter.
+template <typename Space>
+Duration MotionTracker<Space>::leastSpan() const {
+  return std::min<Duration>(kSpan, fromSeconds(longest_period_ / 2.0));
+}
+
+template <typename Space>
+double MotionTracker<Space>::trustIn(Duration span) const {
+  const Duration least = leastSpan();
+  return span >= least ? 1.0 : toSeconds(span) / toSeconds(least);
 }
 
 template class MotionTracker<PoseSpace>;
@@ -49,7 +70,7 @@ void follow(PolynomialFit<Space::kSize>& fit, const MotionTracker<Space>& tracke
     return;
   }
   if (tracker.step() == Step::kBegins) fit.clear();
-  fit.add(tracker.newest().stamp, tracker.coordinates());
+  fit.add(tracker.newest().stamp, tracker.coordinates(), tracker.leastSpan());
 }
 
 template <typename Space>
@@ -57,7 +78,8 @@ void Velocity<Space>::observe(const MotionTracker<Space>& tracker) {
   follow(fit_, tracker);
   typename PolynomialFit<Space::kSize>::Degrees straight;
   straight.fill(1);
-  value_ = tracker.space().limitedTo(fit_.curve(straight).slopeAt(tracker.newest().stamp), 1.0);
+  const Vector slope = fit_.curve(straight).slopeAt(tracker.newest().stamp);
+  value_ = tracker.space().limitedTo(tracker.trustIn(fit_.span()) * slope, 1.0);
 }
 
 template void follow(PolynomialFit<PoseSpace::kSize>& fit, const PoseTracker& tracker);

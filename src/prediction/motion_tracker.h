@@ -39,8 +39,15 @@ class MotionTracker {
   /// the tool's own axes, summed from pose to pose [rad].
   const Vector& coordinates() const { return coordinates_; }
 
+  /// Returns the shortest time over which a velocity is measured, at most 20 ms: half of the longest period lately. Stamps
+  /// that come in bursts are closer to each other than the samples were; over 20 ms that averages out.
+  Duration leastSpan() const;
+  /// Returns the share of a velocity that counts, in [0, 1]: 1 if it was measured over leastSpan().
+  double trustIn(Duration span) const;
+
  private:
   bool gap(Duration period) const;
+  void notePeriod(double seconds);
 
   Space space_;
   int samples_ = 0;
@@ -48,6 +55,7 @@ class MotionTracker {
   Sample newest_;
   Duration period_{};
   Vector coordinates_ = Vector::Zero();
+  double longest_period_ = 0.02;  // lately [s]; before there is one, stamps may be wrong by half of this
 };
 
 using PoseTracker = MotionTracker<PoseSpace>;
@@ -58,7 +66,8 @@ template <typename Space>
 void follow(PolynomialFit<Space::kSize>& fit, const MotionTracker<Space>& tracker);
 
 /// Measures a velocity by least squares over the newest part of a motion, or over the newest two samples if they are
-/// farther apart.
+/// farther apart. Where samples come in bursts, the part reaches back for at least MotionTracker::leastSpan(); from less than
+/// that, the velocity counts in part.
 template <typename Space>
 class Velocity {
  public:

@@ -59,13 +59,13 @@ PolynomialFit<N>::PolynomialFit(const Options& options) : options_(options), sam
 }
 
 template <int N>
-void PolynomialFit<N>::add(Time stamp, const Values& values) {
+void PolynomialFit<N>::add(Time stamp, const Values& values, Duration least_span) {
   assert(samples_.empty() || stamp > samples_.back().stamp);
   if (samples_.full()) samples_.set_capacity(2 * samples_.capacity());
   samples_.push_back({stamp, values});
   fit_.forget(options_.forgetting_factor);
   include(samples_.back());
-  dropOld();
+  dropOld(least_span);
   const Time middle = samples_.front().stamp + span() / 2;
   if (std::abs(toSeconds(middle - middle_)) > half_width_ / 4.0 ||
       std::abs(toSeconds(span()) / 2.0 - half_width_) > half_width_ / 4.0) {
@@ -97,10 +97,11 @@ void PolynomialFit<N>::include(const Sample& sample) {
 }
 
 template <int N>
-void PolynomialFit<N>::dropOld() {
+void PolynomialFit<N>::dropOld(Duration least_span) {
   const Time oldest = samples_.back().stamp - options_.window;
+  const Time spanned = samples_.back().stamp - least_span;
   const size_t kept = static_cast<size_t>(std::max(options_.degree + 1, 2));
-  while (samples_.size() > kept && samples_.front().stamp < oldest) {
+  while (samples_.size() > kept && samples_.front().stamp < oldest && samples_[1].stamp <= spanned) {
     const Sample& old = samples_.front();
     const double weight = std::pow(options_.forgetting_factor, static_cast<double>(samples_.size() - 1));
     fit_.add(legendre(toSeconds(old.stamp - middle_) / half_width_), old.values - origin_, -weight);

@@ -49,8 +49,9 @@ class PolynomialFit {
   explicit PolynomialFit(const Options& options);
 
   /// Adds a sample.
-  /// @param stamp  later than the previous sample's
-  void add(Time stamp, const Values& values);
+  /// @param stamp       later than the previous sample's
+  /// @param least_span  older samples than the window's are kept where the window spans less
+  void add(Time stamp, const Values& values, Duration least_span = {});
   /// Replaces the values of the newest sample.
   void replaceNewest(const Values& values);
   void clear();
@@ -68,7 +69,7 @@ class PolynomialFit {
     Values values;
   };
   void include(const Sample& sample);
-  void dropOld();
+  void dropOld(Duration least_span);
   void rebuild();
 
   Options options_;

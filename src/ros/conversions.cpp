@@ -35,6 +35,7 @@ static_assert(equal(Warning::DISABLED, sweep_guard_core::kDisabled));
 static_assert(equal(Warning::MULTI_PUBLISHER, sweep_guard_core::kMultiPublisher));
 static_assert(equal(Warning::POSE_LOSS, sweep_guard_core::kPoseLoss));
 static_assert(equal(Warning::INSIDE_UNTESTED, sweep_guard_core::kInsideUntested));
+static_assert(equal(Warning::JUMP, sweep_guard_core::kJump));
 static_assert(equal(Warning::POSES_UNSWEPT, sweep_guard_core::kPosesUnswept));
 static_assert(equal(Warning::MESH_DROPPED, sweep_guard_core::kMeshDropped));
 static_assert(equal(Warning::WORKER_HUNG, sweep_guard_core::kWorkerHung));
@@ -217,15 +218,17 @@ sweep_guard::Contacts toMsg(const sweep_guard_core::SweepReport& report, const s
   msg.header.stamp = toMsg(report.end);
   msg.interval_start = toMsg(report.start);
   msg.margin = report.margin();
-  for (const sweep_guard_core::SweptObject& object : report.objects) {
+  const auto add = [&](const sweep_guard_core::SweptObject& object) {
     if (!object.result.allowed.triangles.empty()) {
       msg.allowed.push_back(allowedMsg(*object.workpiece, object.result, tool));
       rescale(msg.allowed.back().impacts, object.interval_start, report);
     }
-    if (object.result.triangles.empty() && !object.result.inside) continue;
+    if (object.result.triangles.empty() && !object.result.inside) return;
     msg.objects.push_back(toMsg(*object.workpiece, object.result, tool));
     rescale(msg.objects.back().impacts, object.interval_start, report);
-  }
+  };
+  std::for_each(report.objects.begin(), report.objects.end(), add);
+  std::for_each(report.replaced.begin(), report.replaced.end(), add);
   return msg;
 }
 

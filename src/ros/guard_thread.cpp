@@ -33,6 +33,13 @@ bool knowsAllFramesOf(const QueuedPose& queued, const QueuedPose& next) {
                      [&](const auto& frame) { return next.pose.X_WM.count(frame.first) != 0; });
 }
 
+// Of deformations they are the same.
+bool haveSameTriangles(const sweep_guard_core::Workpieces& some, const sweep_guard_core::Workpieces& others) {
+  return std::equal(some.begin(), some.end(), others.begin(), others.end(), [](const auto& one, const auto& other) {
+    return &one->mesh_M.triangles() == &other->mesh_M.triangles() && one->frame == other->frame;
+  });
+}
+
 std::unique_ptr<sweep_guard_core::Detector> firstDetector(const GuardThreadDependencies& dependencies) {
   const Parameters& parameters = dependencies.parameters.initial();
   auto detector = dependencies.make_detector(parameters);
@@ -367,6 +374,7 @@ void GuardThread::sweep(const QueuedPose& queued) {
   beginSweep(queued, workpieces);
   guard_.sweep(pose, workpieces, *report);
   const SteadyTime end = std::chrono::steady_clock::now();
+  triangles_are_new_ = !haveSameTriangles(workpieces, predicted_with_);
   swept_ = queued;
   warn(*report, queued);
 
@@ -416,7 +424,7 @@ void GuardThread::beginSweep(const QueuedPose& queued, const sweep_guard_core::W
 void GuardThread::warn(const sweep_guard_core::SweepReport& report, const QueuedPose& queued) {
   const SteadyTime swept = std::chrono::steady_clock::now();
   sweep_guard_core::beat();
-  if (!report.objects.empty()) results_.publish(report);
+  if (!report.objects.empty() || !report.replaced.empty()) results_.publish(report);
   sweep_guard_core::beat();
   dependencies_.monitor.swept(report, timestampsOf(queued.pose), queued.checkpoint, swept);
   dependencies_.warnings.publishIfChanged();
@@ -432,12 +440,13 @@ void GuardThread::reportFailures(const std::vector<sweep_guard_core::SweepFailur
 
 bool GuardThread::mayPredict() const { return prediction_due_ && passed_.empty(); }
 
-// Sweeps of queued poses go first, but delay the prediction by at most a cycle. It begins at a swept pose.
+// Sweeps of queued poses go first, but delay the prediction by at most a cycle. It begins at a swept pose. One with other triangles
+// does not wait for its turn: those from before stand in for them only for a while.
 bool GuardThread::timeToPredict() const {
   if (!mayPredict()) return false;
   const SteadyTime at = std::chrono::steady_clock::now();
   if (at - predicted_at_ >= dependencies_.parameters.get()->guard.cycle) return true;
-  return at >= pace_.due() && !dependencies_.queue.hasPoses();
+  return (triangles_are_new_ || at >= pace_.due()) && !dependencies_.queue.hasPoses();
 }
 
 // A prediction rather begins at the next pose, which is fresh, but waits for it no longer than this.
@@ -460,6 +469,8 @@ void GuardThread::predict() {
   const Duration age = ageOf(from, at);
   const auto prediction = predictions_.take();
   const sweep_guard_core::Workpieces workpieces = dependencies_.workpieces.snapshot();
+  predicted_with_ = workpieces;
+  triangles_are_new_ = false;
   guard_.intend(dependencies_.intentions.at(at.steady));
   follow(predicted_from_.pose);
   predictInterrupted(age, workpieces, *prediction, charge.interrupted);

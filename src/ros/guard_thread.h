@@ -82,8 +82,8 @@ struct GuardThreadDependencies {
 /// Runs the guard in one thread: sweeps every queued pose, sweeps a backlog of poses as one motion, predicts from the
 /// newest pose, and runs the queued tasks between two sweeps. A pose that comes during a prediction is swept between two
 /// of its sweeps, for up to 50 ms; then the prediction ends first. Predictions begin when PredictionPace says, but one
-/// begins every cycle: a pose that is not predicted from is still swept. A frame that is known further than at the newest pose is
-/// swept against at once.
+/// begins every cycle: a pose that is not predicted from is still swept. One begins at once after the sweep of other triangles. A
+/// frame that is known further than at the newest pose is swept against at once.
 class GuardThread {
  public:
   /// @throws sweep_guard_core::InvalidInput if a parameter is refused
@@ -168,9 +168,11 @@ class GuardThread {
   std::optional<QueuedPose> swept_;                          // newest swept pose
   bool prediction_due_ = false;                              // from that pose
   QueuedPose predicted_from_;                                // newest swept pose at the last prediction
+  sweep_guard_core::Workpieces predicted_with_;              // at the last prediction
+  bool triangles_are_new_ = false;                           // there were others at the last prediction
   std::vector<sweep_guard_core::SteadyTime> passed_;         // when the poses passed since then were received
   sweep_guard_core::SteadyTime predicted_at_;                // time of the newest prediction
-  sweep_guard_core::Time frames_known_to_;                   // all that are followed, at the newest sweep; at most its pose
+  sweep_guard_core::Time frames_known_to_;  // all that are followed, at the newest sweep; at most its pose
   PredictionPace pace_;
   sweep_guard_core::Pool<sweep_guard_core::SweepReport> reports_;
   sweep_guard_core::Pool<sweep_guard_core::Prediction> predictions_;

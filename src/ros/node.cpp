@@ -56,7 +56,7 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
               }),
       allowed_(parameters_.initial().guard.allowed),
       workpieces_([this](const auto& workpieces) {
-        monitor_.setWorkpieces(workpieces);
+        monitor_.setWorkpieces(workpieces, std::chrono::steady_clock::now());
         intentions_.follow(workpieces);
         allowed_.follow(workpieces);
       }),

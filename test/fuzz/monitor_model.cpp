@@ -20,6 +20,7 @@ constexpr std::int64_t kTick = 15;
 constexpr std::int64_t kOverload = 20;
 constexpr std::int64_t kUnreadTime = 1000;
 constexpr std::int64_t kFailureShown = 100;
+constexpr std::int64_t kStandsIn = 50;
 
 std::int64_t age(const MonitorModel::Clock& input, const MonitorModel::Clock& now) {
   return std::max(now.stamp - input.stamp, now.steady - input.steady);
@@ -29,8 +30,10 @@ std::int64_t age(const MonitorModel::Clock& input, const MonitorModel::Clock& no
 
 void MonitorModel::place(int id, int mesh, const Clock& times) {
   auto& workpiece = workpieces_[at(id)];
-  const bool same = workpiece && workpiece->mesh == mesh;
-  workpiece = Workpiece{mesh, times, same && workpiece->swept, workpiece ? workpiece->dropped : std::nullopt};
+  if (!workpiece) workpiece = Workpiece{mesh, times, {}, {}};
+  if (workpiece->mesh != mesh) workpiece->replaced[workpiece->mesh] = times.steady;
+  workpiece->mesh = mesh;
+  workpiece->times = times;
 }
 
 void MonitorModel::remove(int id) { workpieces_[at(id)].reset(); }
@@ -78,7 +81,7 @@ void MonitorModel::newEpoch() {
   fault_ = 0;
   if (failure_ && !failure_->lasts) failure_.reset();
   for (auto& workpiece : workpieces_) {
-    if (workpiece) workpiece->swept = false;
+    if (workpiece) workpiece->swept.reset();
   }
   swept_until_ = 0;
   coverage_.reset();
@@ -145,12 +148,20 @@ void MonitorModel::sweep(const Report& report, std::int64_t now) {
     complete = complete && !report.missing[at(id)] && !(tested.present && tested.behind);
     if (tested.present && tested.contact && !met) met = id;
     if (!workpiece) continue;
-    workpiece->swept = tested.present && !tested.behind && tested.mesh == workpiece->mesh;
+    workpiece->swept.reset();
+    if (tested.present && !tested.behind) workpiece->swept = tested.mesh;
     if (tested.present && workpiece->dropped && tested.received > *workpiece->dropped) workpiece->dropped.reset();
   }
   if (any && complete) swept_until_ = report.pose.stamp;
   if (contact_) contact_->lasts = contact_->lasts && report.missing[at(contact_->id)];
   if (met) contact_ = Contact{*met, now, true};
+}
+
+bool MonitorModel::counts(const std::optional<int>& tested, const Workpiece& workpiece, const Clock& now) {
+  if (!tested) return false;
+  const auto replaced = workpiece.replaced.find(*tested);
+  return *tested == workpiece.mesh ||
+         (replaced != workpiece.replaced.end() && now.steady - replaced->second <= kStandsIn);
 }
 
 void MonitorModel::keepAlarm(std::optional<Alarm>& kept, const Alarm& alarm) {
@@ -197,7 +208,7 @@ std::string MonitorModel::whyNotSwept(const Clock& now) const {
     if (!workpiece) continue;
     if (age(workpiece->times, now) > kMeshTimeout) return "a workpiece is stale";
     if (workpiece->dropped) return "an update was dropped";
-    if (!workpiece->swept) return "a workpiece was not swept";
+    if (!counts(workpiece->swept, *workpiece, now)) return "a workpiece was not swept";
   }
   return any ? "" : "no workpiece";
 }
@@ -211,7 +222,7 @@ std::string MonitorModel::whyNotCovered(const Clock& now) const {
     for (int id = 0; id < kIds; ++id) {
       const auto& workpiece = workpieces_[at(id)];
       const Tested& tested = coverage_->report.tested[at(id)];
-      all = all && (!workpiece || (tested.present && tested.mesh == workpiece->mesh));
+      all = all && (!workpiece || (tested.present && counts(tested.mesh, *workpiece, now)));
     }
     if (all) until = std::max(until, coverage_->until);
   }

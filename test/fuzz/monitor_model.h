@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -78,8 +79,9 @@ class MonitorModel {
   struct Workpiece {
     int mesh;
     Clock times;
-    bool swept = false;
-    std::optional<std::int64_t> dropped;  // received
+    std::optional<int> swept;                // mesh
+    std::optional<std::int64_t> dropped;     // received
+    std::map<int, std::int64_t> replaced{};  // meshes before this one: when the next came
   };
   struct Contact {
     int id;
@@ -106,6 +108,7 @@ class MonitorModel {
   };
 
   static size_t at(int id) { return static_cast<size_t>(id); }
+  static bool counts(const std::optional<int>& tested, const Workpiece& workpiece, const Clock& now);
   static void keepAlarm(std::optional<Alarm>& kept, const Alarm& alarm);  // the one that ended later
   void newEpoch();
   void sweepBeforeJump(const Report& report, std::int64_t now);

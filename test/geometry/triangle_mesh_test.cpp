@@ -97,8 +97,26 @@ TEST(TriangleMeshTest, DeformsToTheGivenPositions) {
   const TriangleMesh mesh = deformed({kVertices, kTriangles}, {0.1F, 0, 0, 1, 0, 0, 0, 1, 0, 1e6F, 0, 0.3F});
   EXPECT_EQ(mesh.vertex(0), Eigen::Vector3d(0.1F, 0, 0));
   EXPECT_EQ(mesh.vertex(3), Eigen::Vector3d(1e6F, 0, 0.3F));
-  EXPECT_EQ(mesh.rounding(), 0.0);
   EXPECT_DOUBLE_EQ(mesh.radius(), Eigen::Vector3d(1e6F, 1.0, 0.3F).norm());
+}
+
+// Its sender has rounded each coordinate by up to half a step of float32.
+TEST(TriangleMeshTest, IsAfterADeformationAsFarOffAsItsSenderMayHaveRounded) {
+  const auto roundingOf = [](const Eigen::Vector3f& largest) {
+    std::vector<float> positions(12, 0.0F);
+    for (const int axis : {0, 1, 2}) positions[static_cast<size_t>(3 * axis + axis)] = -largest[axis];
+    return deformed({kVertices, kTriangles}, positions).rounding();
+  };
+  EXPECT_NEAR(roundingOf({1.5F, 1.0F, 1.99F}), std::sqrt(3.0) * 0x1p-24, 1e-15);
+  EXPECT_NEAR(roundingOf({0.25F, 0.1F, 0.0F}), std::hypot(0x1p-26, 0x1p-28), 1e-15);
+  EXPECT_NEAR(roundingOf({30e3F, 0.0F, 0.0F}), 0.977e-3, 1e-6);
+  EXPECT_NEAR(roundingOf({130e3F, 130e3F, 1.0F}), 5.52e-3, 1e-5);
+  EXPECT_NEAR(roundingOf({500e3F, 4000e3F, 100.0F}), 0.126, 1e-3);
+}
+
+TEST(TriangleMeshTest, AddsWhatThePositionsWereRoundedByBefore) {
+  const TriangleMesh mesh(kVertices, kTriangles, SurfaceKind::kMayEnclose, 0.002);
+  EXPECT_EQ(mesh.rounding(), 0.002);
 }
 
 // The list of triangles is not copied at 60 Hz.

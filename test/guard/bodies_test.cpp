@@ -308,6 +308,20 @@ TEST_F(TwoBallsTest, ASweepTakenBackIsRepeatedForBoth) {
   EXPECT_EQ(again.objects[0].result.in_contact.size(), lost.objects[0].result.in_contact.size());
 }
 
+TEST_F(TwoBallsTest, TrianglesThatWereReplacedAreSweptForBoth) {
+  const auto far = std::make_shared<const Workpiece>(
+      Workpiece{"triangle", 1, at(5), SteadyTime{}, "table",
+                TriangleMesh({{-1, -1, -9}, {1, -1, -9}, {0, 1, -9}, {0, 0, -9}}, {{0, 1, 2}, {0, 1, 3}})});
+  reportOf(guard_, pose(0, 0.11, 0.11), {triangle_});
+  const SweepReport report = reportOf(guard_, pose(10, 0.11, -0.09), {far});
+  ASSERT_EQ(report.replaced.size(), 1U);
+  EXPECT_EQ(report.replaced[0].workpiece, triangle_);
+  ASSERT_EQ(report.replaced[0].result.in_contact.size(), 1U);
+  EXPECT_EQ(report.replaced[0].result.in_contact[0].piece, 1U);
+  EXPECT_FALSE(report.objects[0].result.contact());
+  EXPECT_TRUE(report.contact());
+}
+
 TEST_F(TwoBallsTest, ContactOfOneAsIntendedDoesNotHideThatOfTheOther) {
   Intention intention{"triangle", triangle_->mesh_M.sharedTriangles(), {0}, 0.05, {"first"}};
   Guard guard(twoBalls("first", "second"), std::make_unique<FakeDetector>(record_), {});

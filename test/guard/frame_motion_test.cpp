@@ -181,7 +181,8 @@ TEST(FrameThatGoesOnTest, ItsSpeedIsThatOfTwentyMillisecondsAtLeast) {
 }
 
 TEST(FrameThatGoesOnTest, HasAPathOfAnyLength) {
-  const auto path = framePath(seldomMeasured(), Time(150ms), {predictedAlong(10ms, 0.0, 0.0), predictedAlong(1s, 0.0, 0.0)}, 1.0);
+  const auto path =
+      framePath(seldomMeasured(), Time(150ms), {predictedAlong(10ms, 0.0, 0.0), predictedAlong(1s, 0.0, 0.0)}, 1.0);
   ASSERT_TRUE(path);
   EXPECT_NEAR(path->points.back().X_WM.translation().x(), 0.3 * 1.15, 1e-9);
   EXPECT_NEAR(path->points.back().deviation_bound, 0.0, 1e-9);

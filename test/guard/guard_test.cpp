@@ -20,7 +20,7 @@ using Places = std::map<std::string, Eigen::Isometry3d>;
 
 // The tool at a place in each frame. Only the motion between them counts: the tool rests in W, the frames move.
 PoseWithFrames pose(double seconds, const Places& X_MT) {
-  PoseWithFrames pose{atSecond(seconds), SteadyTime{}, Eigen::Isometry3d::Identity(), {}};
+  PoseWithFrames pose{atSecond(seconds), SteadyTime(fromSeconds(seconds)), Eigen::Isometry3d::Identity(), {}};
   for (const auto& [frame, X] : X_MT) pose.X_WM[frame] = X.inverse();
   return pose;
 }
@@ -238,6 +238,83 @@ TEST_F(GuardTest, SweepsThePathAcrossAFailureThoughTheTrianglesAreNew) {
   EXPECT_TRUE(reportOf(guard_, pose(1.2, {{"table", up(-0.3)}}), remeshed).contact());
 }
 
+// Of two triangles at a height in the frame `table`.
+std::shared_ptr<const Workpiece> quadAt(double z, std::uint32_t revision) {
+  const TriangleMesh mesh_M({{-1, -1, z}, {1, -1, z}, {1, 1, z}, {-1, 1, z}}, {{0, 1, 2}, {0, 2, 3}});
+  return std::make_shared<const Workpiece>(
+      Workpiece{"triangle", revision, atSecond(1.05), SteadyTime{}, "table", mesh_M});
+}
+
+TEST_F(GuardTest, SweepsTrianglesThatWereReplacedToTheNextPoseAndNoFarther) {
+  const Workpieces far = {quadAt(-5.0, 1)};
+  sweepTo(1.0, 0.2);
+  const SweepReport both = reportOf(guard_, pose(1.1, {{"table", up(-0.2)}}), far);
+  ASSERT_EQ(both.objects.size(), 1U);
+  EXPECT_FALSE(both.objects[0].result.contact());
+  ASSERT_EQ(both.replaced.size(), 1U);
+  EXPECT_EQ(both.replaced[0].workpiece, table_[0]);
+  EXPECT_EQ(both.replaced[0].interval_start, atSecond(1.0));
+  EXPECT_EQ(both.replaced[0].result.triangles, Indices{0});
+  EXPECT_TRUE(both.contact());
+  EXPECT_TRUE(both.complete());
+  const SweepReport next = reportOf(guard_, pose(1.2, {{"table", up(0.2)}}), far);
+  EXPECT_TRUE(next.replaced.empty());
+  EXPECT_FALSE(next.contact());
+}
+
+TEST_F(GuardTest, FindsAContactWithNewTrianglesBesideThoseThatWereReplaced) {
+  sweepTo(1.0, 0.5);
+  const SweepReport both = reportOf(guard_, pose(1.1, {{"table", up(0.5)}}), {quadAt(0.45, 1)});
+  ASSERT_EQ(both.replaced.size(), 1U);
+  EXPECT_FALSE(both.replaced[0].result.contact());
+  EXPECT_TRUE(both.objects[0].result.contact());
+}
+
+// A tool that rests on the triangles meets those from before and the new ones.
+TEST_F(GuardTest, FindsContactsWithTheTrianglesFromBeforeAndTheNewOnes) {
+  sweepTo(1.0, 0.05);
+  const SweepReport both = reportOf(guard_, pose(1.1, {{"table", up(0.05)}}), {quadAt(0.0, 1)});
+  ASSERT_EQ(both.replaced.size(), 1U);
+  EXPECT_TRUE(both.replaced[0].result.contact());
+  EXPECT_TRUE(both.objects[0].result.contact());
+}
+
+TEST_F(GuardTest, SweepsReplacedTrianglesAgainAfterAFailureOrWhereTheReportWasLost) {
+  const Workpieces far = {quadAt(-5.0, 1)};
+  sweepTo(1.0, 0.2);
+  record_.failures_left = 100;
+  const SweepReport failed = reportOf(guard_, pose(1.1, {{"table", up(-0.2)}}), far);
+  record_.failures_left = 0;
+  EXPECT_TRUE(failed.replaced.empty());
+  EXPECT_FALSE(failed.failures.empty());
+  EXPECT_FALSE(failed.complete());
+  EXPECT_TRUE(reportOf(guard_, pose(1.2, {{"table", up(-0.2)}}), far).contact());
+  guard_.takeBack();
+  const SweepReport again = reportOf(guard_, pose(1.3, {{"table", up(-0.2)}}), far);
+  EXPECT_TRUE(again.contact());
+  EXPECT_EQ(again.start, atSecond(1.0));
+  EXPECT_FALSE(reportOf(guard_, pose(1.4, {{"table", up(-0.2)}}), far).contact());
+}
+
+TEST_F(GuardTest, ForgetsReplacedTrianglesOfAWorkpieceThatIsRemovedOrComesInAnotherFrame) {
+  sweepTo(1.0, 0.2);
+  EXPECT_TRUE(reportOf(guard_, pose(1.1, {}), {quadAt(-5.0, 1)}).replaced.empty()) << "its frame is unknown";
+  EXPECT_TRUE(reportOf(guard_, pose(1.2, {{"table", up(-0.2)}}), {}).replaced.empty());
+  EXPECT_FALSE(reportOf(guard_, pose(1.3, {{"table", up(-0.2)}}), {quadAt(-5.0, 2)}).contact());
+  const SweepReport moved =
+      reportOf(guard_, pose(1.4, {{"turntable", up(0.5)}}), {triangleIn("triangle", "turntable")});
+  EXPECT_TRUE(moved.replaced.empty());
+  EXPECT_FALSE(moved.contact());
+}
+
+// The tool goes through the triangles while their frame is not known, and they are replaced meanwhile.
+TEST_F(GuardTest, SweepsReplacedTrianglesOnceTheirFrameIsKnown) {
+  const Workpieces far = {quadAt(-5.0, 1)};
+  sweepTo(1.0, 0.2);
+  reportOf(guard_, pose(1.1, {}), far);
+  EXPECT_TRUE(reportOf(guard_, pose(1.2, {{"table", up(-0.2)}}), far).contact());
+}
+
 TEST_F(GuardTest, AFailureOnOneWorkpieceDoesNotHideAContactWithAnother) {
   const Workpieces both = {triangleIn("first", "table"), triangleIn("second", "table")};
   record_.failures_left = 1;
@@ -261,6 +338,25 @@ TEST_F(GuardTest, PassesThroughABacklogInOneSweep) {
   const SweepReport next = sweepTo(1.041, 0.46);
   EXPECT_EQ(next.start, atSecond(1.04));
   EXPECT_EQ(next.backlog, Duration::zero());
+}
+
+// The poses of 0.1 s, or of 30 s, that one message makes known have not waited: so do a root at 100 Hz and joints at 10 Hz.
+TEST_F(GuardTest, ABacklogIsTheTimeThatPosesWaitedWhateverTheirStamps) {
+  for (const double step : {0.001, 0.01, 3.0}) {
+    guard_.reset();
+    sweepTo(1.0, 0.5);
+    PoseWithFrames known = pose(1.0, {{"table", up(0.5)}});
+    known.received += std::chrono::milliseconds(5);
+    for (int i = 1; i < 10; ++i) {
+      known.stamp = atSecond(1.0 + step * i);
+      guard_.pass(known);
+    }
+    known.stamp = atSecond(1.0 + step * 10);
+    EXPECT_EQ(reportOf(guard_, known, table_).backlog, Duration::zero()) << step;
+    guard_.pass(known);
+    known.received += std::chrono::milliseconds(30);
+    EXPECT_EQ(reportOf(guard_, known, table_).backlog, std::chrono::milliseconds(30)) << "of one stamp";
+  }
 }
 
 // A millisecond down and one up again, wherever in the backlog.
@@ -349,7 +445,9 @@ TEST_F(PlacedAnewTest, WhatIsCrossedInTheOldPlaceIsFound) {
   EXPECT_EQ(report.start, atSecond(1.0));
 }
 
-TEST_F(PlacedAnewTest, WhatIsCrossedInTheNewPlaceIsFound) { EXPECT_TRUE(sweepBoth({0.5, 0.4}, {0.2, -0.05}).contact()); }
+TEST_F(PlacedAnewTest, WhatIsCrossedInTheNewPlaceIsFound) {
+  EXPECT_TRUE(sweepBoth({0.5, 0.4}, {0.2, -0.05}).contact());
+}
 
 TEST_F(PlacedAnewTest, TheMoveItselfIsNoMotion) {
   EXPECT_FALSE(sweepBoth({0.5, 0.4}, {-0.2, -0.3}).contact());
@@ -408,8 +506,8 @@ TEST_F(GuardTest, SweepsOnWhenAFrameIsKnownFurther) {
   const auto plate_at = [](double seconds, double z) { return FramePose{atSecond(seconds), up(z)}; };
   FrameMotion plate{{plate_at(0.99, -0.5)}, {}, {}, true};
   const auto follow = [&] {
-    guard_.follow(std::make_shared<const FrameMotions>(
-        FrameMotions{{"table", std::make_shared<const FrameMotion>(plate)}}));
+    guard_.follow(
+        std::make_shared<const FrameMotions>(FrameMotions{{"table", std::make_shared<const FrameMotion>(plate)}}));
   };
   follow();
   SweepReport report;

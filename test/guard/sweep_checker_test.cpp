@@ -127,6 +127,34 @@ TEST(SweepResultTest, ReportsAMarginThatAddsUp) {
   EXPECT_NEAR(margin, 0.25 + 0.5 + 0.105 * 0.1 * 0.1 / 8.0 + mesh.rounding(), 1e-9);
 }
 
+// A ball touches a triangle where it is; in float32 some triangles lie apart from it.
+TEST(SweepResultTest, MeetsTrianglesWhereTheyWereBeforeTheirSenderRoundedThemToFloat32) {
+  constexpr double kRadius = 0.005;
+  Random random(11);
+  for (const double distance : {0.3, 30e3, 130e3, 4000e3}) {
+    int apart = 0;
+    for (int i = 0; i < 100; ++i) {
+      const Eigen::Isometry3d X_MF = random.pose(distance * random.direction());
+      std::vector<Eigen::Vector3d> vertices;
+      std::vector<float> sent;
+      for (const Eigen::Vector3d& p_F : {Eigen::Vector3d(0.2, 0, 0), {-0.1, 0.2, 0}, {-0.1, -0.2, 0}}) {
+        vertices.emplace_back(X_MF * p_F);
+        for (const int axis : {0, 1, 2}) sent.push_back(static_cast<float>(vertices.back()[axis]));
+      }
+      const TriangleMesh mesh = deformed({vertices, {{0, 1, 2}}}, sent);
+      const double overlap = 1e-3 * mesh.rounding();
+      const Eigen::Vector3d center = X_MF * Eigen::Vector3d(0, 0, kRadius - overlap);
+      const Eigen::Hyperplane<double, 3> kept =
+          Eigen::Hyperplane<double, 3>::Through(mesh.vertex(0), mesh.vertex(1), mesh.vertex(2));
+      if (kept.absDistance(center) > kRadius) ++apart;
+      const Motion rest{placedAt(center), placedAt(center)};
+      EXPECT_EQ(testMotion(reference(), ConvexShape::sphere(kRadius), rest, mesh, {}).triangles, Indices{0})
+          << distance << " m, " << i;
+    }
+    EXPECT_GT(apart, 10) << distance << " m";
+  }
+}
+
 // A vertex on the drill's rim is met as it was given, though the mesh, 1 km large, keeps it up to 0.04 mm off.
 TEST(SweepResultTest, MeetsVerticesWhereTheyWereGiven) {
   int kept_outside = 0;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "guard/times.h"
 
 namespace sweep_guard_core {
@@ -73,6 +75,26 @@ TEST(WorkpieceStoreTest, RefusesWhatDoesNotFitAndKeepsTheSnapshot) {
   EXPECT_EQ(store.snapshot()[0]->stamp, atSecond(2));
 }
 
+// Too coarse for a contact: of northings in UTM, float32 keeps steps of 0.25 m.
+TEST(WorkpieceStoreTest, RefusesVerticesThatFloat32RoundsByMoreThanTenMillimeters) {
+  WorkpieceStore store;
+  store.set(triangleAt(1), atSecond(9));
+  const auto sentAt = [&](const Eigen::Vector3f& place) {
+    std::vector<float> positions = kRaised;
+    for (size_t i = 0; i < positions.size(); ++i) positions[i] += place[static_cast<Eigen::Index>(i % 3)];
+    return refusal([&] { store.deform({kId, 7, atSecond(2), {}, kFrame, positions}, atSecond(9)); });
+  };
+  EXPECT_TRUE(has(sentAt({500e3F, 4000e3F, 0}), "float32 rounds coordinates of 4000 km by up to 126 mm: send"));
+  EXPECT_TRUE(has(sentAt({0, 0, -270e3F}), "of 270 km by up to 16 mm"));
+  EXPECT_TRUE(has(sentAt({132e3F, 132e3F, 0}), "of 132 km by up to 11 mm"));
+  EXPECT_EQ(store.snapshot()[0]->stamp, atSecond(1));
+  EXPECT_EQ(sentAt({130e3F, 130e3F, 0}), "");
+  EXPECT_NEAR(store.snapshot()[0]->mesh_M.rounding(), 0.0055, 1e-4);
+  EXPECT_EQ(sentAt({30e3F, 0, 0}), "");
+  EXPECT_EQ(sentAt({0, 0, 0}), "");
+  EXPECT_LT(store.snapshot()[0]->mesh_M.rounding(), 2e-7);
+}
+
 // Stamps from before time went back say nothing about the order.
 TEST(WorkpieceStoreTest, AcceptsOlderStampsAfterTimeWentBack) {
   WorkpieceStore store;
@@ -111,6 +133,31 @@ TEST(WorkpieceStoreTest, AnAttachedWorkpieceHasToKeepItsShape) {
   EXPECT_TRUE(refused([&] { store.deform({kId, 8, atSecond(4), {}, kFrame, kRaised}, atSecond(9)); }));
   EXPECT_TRUE(refused([&] { store.set(turned(4), atSecond(9)); }));
   EXPECT_TRUE(store.snapshot().empty());
+}
+
+// It is not said to deform by what its sender has rounded.
+TEST(WorkpieceStoreTest, AnAttachedWorkpieceKeepsItsShapeThoughItsVerticesAreRounded) {
+  WorkpieceStore store;
+  store.set(triangleAt(1), atSecond(9));
+  store.attach(store.snapshot()[0], Eigen::Isometry3d::Identity());
+  const auto at = [&](float place) {
+    const double turned = std::sqrt(0.5);
+    return std::vector<float>{place,
+                              place,
+                              0,
+                              static_cast<float>(place + turned),
+                              static_cast<float>(place + turned),
+                              0,
+                              static_cast<float>(place - turned),
+                              static_cast<float>(place + turned),
+                              0};
+  };
+  const auto answer = [&](const std::vector<float>& positions) {
+    return refusal([&] { store.deform({kId, 7, atSecond(2), {}, kFrame, positions}, atSecond(9)); });
+  };
+  EXPECT_EQ(answer(at(0.0F)), "");
+  EXPECT_EQ(answer(at(130'001.0F)), "");
+  EXPECT_TRUE(has(answer(at(4'000'001.0F)), "float32 rounds coordinates of 4000 km"));
 }
 
 // So that nobody finds the payload neither in the tool nor among the workpieces.

@@ -95,6 +95,36 @@ TEST_F(TouchMapTest, CountsTheSweepsThatTouchATriangle) {
   EXPECT_EQ(touched.at(7).sweeps, 1U);
 }
 
+TEST_F(TouchMapTest, TouchesAlongAJumpAreKeptApart) {
+  sweep({{1, 0.002}});
+  SweepReport jump = reportOf(liver_, {{1, 0.01}, {3, 0.02}, {5, 0.02}}, {{4, 0.0}});
+  jump.jumps = {{"mesh", {12.0, false}}};
+  add(jump);
+  const auto objects = touches();
+  ASSERT_EQ(objects.size(), 1U);
+  EXPECT_EQ(objects[0].jump_triangles, (TriangleSet{1, 3, 4, 5}));
+  EXPECT_EQ(ofLiver().size(), 1U);
+  EXPECT_EQ(ofLiver().at(1).sweeps, 1U);
+  EXPECT_FLOAT_EQ(ofLiver().at(1).depth, 0.002F);
+  jump.jumps = {{"another frame", {12.0, false}}};
+  add(jump);
+  EXPECT_EQ(ofLiver().size(), 4U) << "the tool did not jump against this workpiece";
+  map_.clear();
+  EXPECT_TRUE(touches().empty());
+}
+
+TEST_F(TouchMapTest, WhatWasTouchedAlongAJumpOnlyIsReportedToo) {
+  SweepReport jump = reportOf(liver_, {{3, 0.02}});
+  jump.jumps = {{"mesh", {12.0, false}}};
+  add(jump);
+  const auto changes = map_.changes();
+  ASSERT_EQ(touches().size(), 1U);
+  EXPECT_TRUE(touches()[0].triangles.empty());
+  map_.add({}, {});
+  EXPECT_TRUE(touches().empty()) << "it was removed";
+  EXPECT_GT(map_.changes(), changes);
+}
+
 TEST_F(TouchMapTest, KeepsTheLargestDepth) {
   sweep({{1, 0.002}});
   sweep({{1, 0.005}});

@@ -27,6 +27,22 @@ TEST_F(WarningMonitorTest, AnOverloadIsReportedAndHeldButDoesNotChangeTheLevel) 
   EXPECT_EQ(reasonsAt(1521) & kOverload, 0U);
 }
 
+TEST_F(WarningMonitorTest, AJumpIsNamedByItsSourceOrByTheFrameOfTheFastest) {
+  SweepReport report = reportOf(workpieces_);
+  report.jumps = {{"table", {6.0, false}}, {"tray", {12.0, false}}};
+  sweep(report, 1010);
+  EXPECT_EQ(reasonsAt(1010), kJump);
+  EXPECT_EQ(levelAt(1010), WarningLevel::kClear);
+  EXPECT_NE(warningOf(monitor_, at(1010)).text.find("the tool jumped against 'tray': 12 m/s"), std::string::npos);
+  report.jump = "joint 'elbow' jumped: 130 rad/s";
+  sweep(report, 1020);
+  EXPECT_NE(warningOf(monitor_, at(1020)).text.find("joint 'elbow'"), std::string::npos);
+  sweep(reportOf(workpieces_), 1480);
+  EXPECT_EQ(reasonsAt(1480), kJump);
+  monitor_.timeJumped("time went back");
+  EXPECT_EQ(reasonsAt(1480) & kJump, 0U);
+}
+
 TEST_F(WarningMonitorTest, AnOverloadIsForgottenWhenTimeJumps) {
   SweepReport report = reportOf(workpieces_);
   report.backlog = milliseconds(50);
@@ -187,7 +203,8 @@ TEST_F(WarningMonitorTest, ANewWorkpieceOrRevisionIsNotClearBeforeItIsSwept) {
   sweep(reportOf(two), 1010);
   EXPECT_EQ(levelAt(1010), WarningLevel::kClear);
   monitor_.setWorkpieces({workpieces_[0], workpiece("spleen", 1010, /*revision=*/2)});
-  EXPECT_EQ(reasonsAt(1010), kNotSwept | kNotCovered);
+  EXPECT_EQ(reasonsAt(1060), 0U) << "what was swept stands in for it";
+  EXPECT_EQ(reasonsAt(1061), kNotSwept | kNotCovered);
 }
 
 TEST_F(WarningMonitorTest, AContactIsHeldWhileLaterSweepsAreFree) {

@@ -395,7 +395,7 @@ TEST(WarningTest, NamesEveryReasonInItsText) {
 }
 
 TEST(WarningTest, EveryFaultMakesItUnknownUnderItsOwnBit) {
-  for (std::uint32_t bit = 1; bit <= kInsideUntested; bit <<= 1) {
+  for (std::uint32_t bit = 1; bit <= kJump; bit <<= 1) {
     if ((bit & kDegraded) != 0) continue;
     WarningInputs inputs = allGood();
     inputs.faults[static_cast<Reason>(bit)] = "message";
@@ -459,6 +459,19 @@ TEST(WarningTest, WhatDegradesLeavesTheLevelAndEndsAfterTheHoldTime) {
   EXPECT_EQ(warningNow(inputs).reasons, kPoseLoss);
   EXPECT_TRUE(has(warningNow(inputs).text, "3 tool poses were lost"));
   inputs.pose_loss->found -= 1ns;
+  EXPECT_EQ(warningNow(inputs).reasons, 0U);
+}
+
+TEST(WarningTest, AJumpIsSaidForTheHoldTimeAndKeepsTheLevel) {
+  WarningInputs inputs = allGood();
+  inputs.jump = {"joint 'elbow' jumped: 130 rad/s", kNow.steady - 200ms};
+  EXPECT_EQ(warningNow(inputs).reasons, kJump);
+  EXPECT_EQ(warningNow(inputs).text, "CLEAR: joint 'elbow' jumped: 130 rad/s: what was reported may come from that");
+  inputs.contact = {"liver", {7}, kNow.steady};
+  EXPECT_EQ(warningNow(inputs).level, WarningLevel::kContact);
+  EXPECT_TRUE(has(warningNow(inputs).text, "may come from that"));
+  inputs.contact.reset();
+  inputs.jump->found -= 1ns;
   EXPECT_EQ(warningNow(inputs).reasons, 0U);
 }
 

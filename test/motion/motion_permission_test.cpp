@@ -138,7 +138,7 @@ TEST_F(EscapeTest, NeedsPlanesThatAreYoungOnBothClocks) {
 }
 
 TEST_F(EscapeTest, NeedsReasonsWithWhichThePlanesAreThoseOfAllSurfaces) {
-  for (std::uint32_t reason = kNoPose; reason <= kInsideUntested; reason <<= 1U) {
+  for (std::uint32_t reason = kNoPose; reason <= kJump; reason <<= 1U) {
     inputs_.warning->reasons = reason;
     const bool incomplete = reason == kNoMesh || reason == kMeshInvalid || reason == kTimeJump ||
                             reason == kDetectorFault || reason == kNotSwept;

@@ -86,6 +86,35 @@ TEST_F(MotionTrackerTest, PosesHardlyLaterCorrectTheOneBefore) {
   EXPECT_EQ(addAt(0.0005), Step::kContinues);
 }
 
+// However regular poses are, two of them are enough; jitter and one lost pose do not change that.
+TEST_F(MotionTrackerTest, OfRegularPosesTheNewestTwoTellAVelocity) {
+  for (const double period : {0.001, 0.008, 0.01, 0.033, 0.2}) {
+    PoseTracker track{{/*max_speed=*/2.0, /*max_turn_rate=*/10.0}};
+    double seconds = 0.0;
+    for (int i = 0; i < 1000; ++i) {
+      const double jitter = (i % 3 - 1) * 0.2 * period;
+      seconds += i == 700 ? 2.0 * period : period;
+      track.add(poseAt(seconds + jitter, Eigen::Vector3d::Zero()));
+      if (seconds > 0.5) {
+        ASSERT_GE(track.period(), track.leastSpan()) << period << ", pose " << i;
+      }
+    }
+    EXPECT_EQ(track.trustIn(fromSeconds(0.6 * period)), 1.0);
+  }
+}
+
+TEST_F(MotionTrackerTest, OfBurstsOnlyTwentyMillisecondsTellAVelocity) {
+  for (const int poses : {2, 5, 12}) {
+    for (int burst = 0; burst < 4; ++burst) {
+      for (int i = 0; i < poses; ++i) addAt(0.05 * burst + 0.001 * i);
+    }
+    EXPECT_LE(track_.leastSpan(), std::chrono::milliseconds(20)) << poses;
+    EXPECT_GE(track_.leastSpan(), std::chrono::milliseconds(18)) << poses;
+    EXPECT_NEAR(track_.trustIn(std::chrono::milliseconds(4)), 0.2, 0.03);
+    track_.interrupt();
+  }
+}
+
 TEST_F(MotionTrackerTest, TurnsAddUpBeyondAFullTurn) {
   for (int i = 0; i <= 100; ++i) track_.add(poseAt(0.1 * i, {0.0, 0.0, 0.0}, 0.5 * i));
   EXPECT_EQ(track_.samples(), 101);

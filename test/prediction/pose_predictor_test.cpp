@@ -242,6 +242,36 @@ TEST(PosePredictorTest, AStutterOfTheStampsDoesNotPoisonWhatIsLearned) {
   }
 }
 
+// A driver at 100 Hz whose poses are stamped when they arrive: in bursts. A tool at 0.1 m/s never looks as if it would go 0.1 m
+// within 0.1 s, from the first burst on; once they are known, it goes as far as it does.
+TEST(PosePredictorTest, BurstsOfStampsAreNoFastMotion) {
+  struct Bursts {
+    int poses;
+    double apart;   // [s]
+    double period;  // [s]
+  };
+  for (const char* name : {"constant_velocity", "polynomial", "direct"}) {
+    for (const Bursts& bursts :
+         {Bursts{5, 0.001, 0.05}, Bursts{3, 0.002, 0.03}, Bursts{10, 0.0006, 0.1}, Bursts{20, 0.001, 0.2}}) {
+      PosePredictor predictor = predictorOf(name);
+      for (int i = 0; i < 40 * bursts.poses; ++i) {
+        const int burst = i / bursts.poses;
+        const double x = 0.1 * bursts.period * i / bursts.poses;
+        predictor.observe({at(bursts.period * burst + bursts.apart * (i % bursts.poses)),
+                           Eigen::Isometry3d(Eigen::Translation3d(x, 0.0, 0.0))});
+        if (i == 0) continue;
+        const PredictedPose pose = pathOf(predictor, {milliseconds(100)})[0];
+        const double moved = pose.X_WT.translation().x() - x;
+        ASSERT_LT(moved + 3.0 * std::sqrt(pose.covariance(0, 0)), 0.3)
+            << name << ", pose " << i << " of bursts of " << bursts.poses;
+        if (burst > 30) {
+          ASSERT_NEAR(moved, 0.01, 0.02) << name << ", pose " << i << " of bursts of " << bursts.poses;
+        }
+      }
+    }
+  }
+}
+
 // The smaller rotation from pose to pose, so that neither a half turn nor a full turn shows.
 TEST(PosePredictorTest, SpinsThroughHalfTurnsSmoothly) {
   const PoseAt spin = [](double t) {

@@ -176,6 +176,21 @@ class MeshPublisherTest(RunningGuardTest):
         self.assertEqual(meshes.get(timeout=PATIENCE).revision, 1)
         self.assertTrue(meshes.empty())
 
+    def test_vertices_that_float32_makes_coarse_are_said_at_the_sender(self):
+        publisher = self.publisher(mesh_topic='coarse', vertices_topic='coarse_vertices')
+        publisher.publish(TRIANGLE, FACES)
+        for at in ([5.0, 0.0, 0.0], [16e3, 0.0, 0.0]):
+            with self.subTest(at), mock.patch('rospy.logwarn_throttle') as log:
+                publisher.deform(TRIANGLE + at)
+                log.assert_not_called()
+        for at, text in (([30e3, 30e3, 0.0], '1.4 mm'), ([130e3, 0.0, 0.0], '3.9 mm'), ([0.0, 0.0, -200e3], '7.8 mm')):
+            with self.subTest(at), mock.patch('rospy.logwarn_throttle') as log:
+                publisher.deform(TRIANGLE + at)
+                self.assertRegex(log.call_args[0][1], f"'sheet' by up to {text}: send them in a frame near")
+        for at, text in (([500e3, 4000e3, 0.0], '126.0 mm'), ([0.0, 0.0, 270e3], '15.6 mm')):
+            with self.subTest(at), self.assertRaisesRegex(ValueError, f"'sheet' by up to {text}"):
+                publisher.deform(TRIANGLE + at)
+
     def test_names_that_the_guard_would_refuse_are_refused(self):
         for name, frame in (('', 'world'), ('sheet', ''), ('a' * 129, 'world'), ('a\nb', 'world')):
             with self.subTest(name + frame), self.assertRaisesRegex(ValueError, 'give 1 to 128 printable'):

@@ -13,12 +13,12 @@ namespace {
 
 using sweep_guard::CheckTrajectory;
 
-using Positions = std::vector<double>;
+using JointPositions = std::vector<double>;
 
-CheckTrajectory::Request along(const std::vector<std::string>& joints, const std::vector<Positions>& points) {
+CheckTrajectory::Request along(const std::vector<std::string>& joints, const std::vector<JointPositions>& points) {
   CheckTrajectory::Request request;
   request.trajectory.joint_names = joints;
-  for (const Positions& positions : points) {
+  for (const JointPositions& positions : points) {
     request.trajectory.points.emplace_back();
     request.trajectory.points.back().positions = positions;
   }

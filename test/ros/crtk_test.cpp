@@ -7,7 +7,7 @@ namespace {
 
 using geometry_msgs::PoseStamped;
 
-geometry_msgs::Pose poseAt(double x, double z) {
+geometry_msgs::Pose armPose(double x, double z) {
   geometry_msgs::Pose pose;
   pose.position.x = x;
   pose.position.z = z;
@@ -22,13 +22,13 @@ class CrtkTest : public DropInTest {
   void command(double x, double z) {
     PoseStamped message;
     message.header.frame_id = "world";
-    message.pose = poseAt(x, z);
+    message.pose = armPose(x, z);
     commands_.send(message);
   }
 
   void moveTo(double x, double z) {
     command(x, z);
-    arm_.commands().await("the commanded pose", [&](const PoseStamped& next) { return next.pose == poseAt(x, z); });
+    arm_.commands().await("the commanded pose", [&](const PoseStamped& next) { return next.pose == armPose(x, z); });
   }
 
   // The arm is commanded elsewhere meanwhile.
@@ -42,7 +42,7 @@ class CrtkTest : public DropInTest {
     for (int i = 0; i < 20; ++i) EXPECT_EQ(arm_.commands().next().pose, last.pose);
   }
 
-  FakeArm arm_{"PSM1", poseAt(0.0, 0.0)};
+  FakeArm arm_{"PSM1", armPose(0.0, 0.0)};
   Stream<PoseStamped> commands_{"operator/servo_cp"};
   geometry_msgs::Pose before_;
 };

@@ -74,6 +74,15 @@ TEST_F(DiagnosticsTest, EachInputReportsTopicPublishersAndAge) {
   EXPECT_EQ(valueOf(workpieces, "'square'").find("revision 1, 2 triangles in 'world'"), 0U);
 }
 
+TEST_F(DiagnosticsTest, SayWhichWorkpieceHasCoordinatesThatFloat32MakesCoarse) {
+  placeSquare("square", {0.0, 0.0, -1.0});
+  probe().place(squareMovedTo("square", {0.0, 0.0, -1.0}, probe().time()));
+  const auto coarse = [](const DiagnosticStatus& status) { return has(status.message, "for float32 rounds"); };
+  EXPECT_FALSE(coarse(probe().awaitStatus("workpieces", any)));
+  probe().place(squareMovedTo("square", {30e3, 30e3, -1.0}, probe().time()));
+  EXPECT_TRUE(has(probe().awaitStatus("workpieces", coarse).message, "'square' is known to 1.4 mm only"));
+}
+
 TEST_F(DiagnosticsTest, APoseThatWasRefusedIsTheLastErrorOfItsInputAlone) {
   auto bad = poseAt({0.0, 0.0, 0.5}, probe().time());
   bad.pose.position.y = NAN;

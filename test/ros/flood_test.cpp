@@ -25,12 +25,11 @@ using sweep_guard::MeshVertices;
 using sweep_guard::Warning;
 using SteadyClock = std::chrono::steady_clock;
 
-constexpr double kMaxGrowth = 64.0;   // [MB]
 constexpr double kMaxRecovery = 1.2;  // [s]
 constexpr size_t kMaxLines = 20;
 constexpr double kMaxMemory = 4096.0;  // [MB] limits/memory
 
-GuardProbe& probe() {
+GuardProbe& floodProbe() {
   static GuardProbe probe(/*drives_clock=*/false);
   return probe;
 }
@@ -53,8 +52,8 @@ class GoodInputs {
   void run() const {
     ros::WallRate rate(100.0);
     for (int i = 0; !stopping_; ++i) {
-      probe().publish(poseAt(kAway, ros::Time::now()));
-      if (i % 3 == 0) probe().publish(squareMovedTo("square", kSquare, ros::Time::now()));
+      floodProbe().publish(poseAt(kAway, ros::Time::now()));
+      if (i % 3 == 0) floodProbe().publish(squareMovedTo("square", kSquare, ros::Time::now()));
       rate.sleep();
     }
   }
@@ -81,12 +80,12 @@ void PrintTo(const Flood& flood, std::ostream* out) { *out << flood.name; }
 
 void sendMeshAgain(int /*i*/) {
   static const DeformableMesh mesh = squareAt("square", kSquare, ros::Time::now() - ros::Duration(1.0));
-  probe().publish(mesh);
+  floodProbe().publish(mesh);
 }
 
 void sendStrayVertices(int i) {
   static const char* const ids[] = {"", "gone", "ghost", "sheeet"};
-  probe().publish(squareMovedTo(ids[i % 4], kSquare, ros::Time::now()));
+  floodProbe().publish(squareMovedTo(ids[i % 4], kSquare, ros::Time::now()));
 }
 
 void sendForgedLength(int i) {
@@ -99,15 +98,15 @@ void sendForgedLength(int i) {
   if (i % 4 == 3) transforms.forge(4, 0x20000001);
 }
 
-void sendOldPose(int /*i*/) { probe().publish(poseAt(kAway, ros::Time::now() - ros::Duration(3600.0))); }
+void sendOldPose(int /*i*/) { floodProbe().publish(poseAt(kAway, ros::Time::now() - ros::Duration(3600.0))); }
 
 void sendLongName(int i) {
   const std::string name = "fresh\n" + std::to_string(i) + std::string(5000, 'x');
   auto pose = poseAt(kAway, ros::Time::now());
   pose.header.frame_id = i % 2 == 0 ? name : "fresh" + std::to_string(i);
-  if (i % 4 == 0) probe().publish(pose);
-  if (i % 4 == 1) probe().publish(squareMovedTo(name, kSquare, ros::Time::now()));
-  if (i % 4 == 2) probe().publish(squareAt(name, kSquare, ros::Time::now()));
+  if (i % 4 == 0) floodProbe().publish(pose);
+  if (i % 4 == 1) floodProbe().publish(squareMovedTo(name, kSquare, ros::Time::now()));
+  if (i % 4 == 2) floodProbe().publish(squareAt(name, kSquare, ros::Time::now()));
   if (i % 4 != 3) return;
   static ros::Publisher transforms = ros::NodeHandle().advertise<tf2_msgs::TFMessage>("/tf", 100);
   tf2_msgs::TFMessage message;
@@ -125,7 +124,7 @@ void sendLongName(int i) {
 // Ten of one millisecond, each a nanosecond after the one before.
 void sendTenPoses(int /*i*/) {
   const ros::Time now = ros::Time::now();
-  for (int i = 0; i < 10; ++i) probe().publish(poseAt(kAway, now + ros::Duration(0, i)));
+  for (int i = 0; i < 10; ++i) floodProbe().publish(poseAt(kAway, now + ros::Duration(0, i)));
 }
 
 // A connection that says nothing, or breaks off in its first number.
@@ -150,13 +149,13 @@ class FloodTest : public ::testing::TestWithParam<Flood> {
 
 bool FloodTest::flood(double seconds) {
   const auto clear = [](const Warning& warning) { return warning.clear; };
-  probe().skipWarnings();
-  probe().awaitWarning(clear);
+  floodProbe().skipWarnings();
+  floodProbe().awaitWarning(clear);
   const pid_t pid = guardPid();
   const double before = residentMegabytes(pid);
   const double processor = processorSeconds(pid);
   const size_t lines = guardLog().lines().size();
-  const size_t warnings = probe().warnings().size();
+  const size_t warnings = floodProbe().warnings().size();
 
   ros::WallRate rate(1000.0);
   const auto begin = SteadyClock::now();
@@ -166,11 +165,11 @@ bool FloodTest::flood(double seconds) {
     rate.sleep();
   }
   const auto end = SteadyClock::now();
-  const std::vector<Warning> flooded = probe().warnings();
+  const std::vector<Warning> flooded = floodProbe().warnings();
   const auto clear_ones = std::count_if(flooded.begin() + static_cast<std::ptrdiff_t>(warnings), flooded.end(), clear);
   const double used = processorSeconds(pid) - processor;
-  probe().skipWarnings();
-  probe().awaitWarning(clear);
+  floodProbe().skipWarnings();
+  floodProbe().awaitWarning(clear);
   const double recovery = secondsSince(end);
   const size_t logged = guardLog().lines().size() - lines;
   const double after = residentMegabytes(pid);
@@ -188,9 +187,9 @@ bool FloodTest::flood(double seconds) {
 
 // On a busy machine one of several floods is in time.
 TEST_P(FloodTest, LeavesNothingBehind) {
-  probe();
+  floodProbe();
   guardLog();
-  probe().publish(squareAt("square", kSquare, ros::Time::now()));
+  floodProbe().publish(squareAt("square", kSquare, ros::Time::now()));
   const GoodInputs good;
   const double seconds = ros::param::param("~seconds", 2.0);
   for (int tries_left = 5; !flood(seconds); --tries_left) ASSERT_GT(tries_left, 1);

@@ -32,6 +32,8 @@ double residentMegabytes(pid_t pid);
 double peakMegabytes(pid_t pid);  ///< largest resident memory since the process began
 double processorSeconds(pid_t pid);
 
+constexpr double kMaxGrowth = 64.0;  ///< [MB] by which the memory of a guard may grow, whatever is sent
+
 /// Keeps what the guard logs.
 class GuardLog {
  public:

@@ -121,6 +121,29 @@ TEST_F(GuardThreadTest, APoseThatIsLeftWhenAPredictionGoesOnIsSweptAfterIt) {
   EXPECT_FALSE(queue_.waitingSince());
 }
 
+// The next prediction would be due after a second: the one before was slow.
+TEST_F(GuardThreadTest, OtherTrianglesArePredictedAtOnce) {
+  const auto patient = std::make_shared<Parameters>(*parameters_.get());
+  patient->guard.cycle = std::chrono::seconds(20);
+  parameters_.set(patient);
+  bool slow = false;  // used by the guard's thread only
+  record_.asked = [&] {
+    if (!slow && inPrediction()) std::this_thread::sleep_for(milliseconds(200));
+    slow = slow || inPrediction();
+  };
+  for (int i = 0; i < 3; ++i) push();
+  std::uint64_t predictions = 0;
+  ASSERT_TRUE(await([&] {
+    predictions = statistics_.take().predictions_total;
+    return slow;
+  }));
+  const auto begin = now().steady;
+  workpieces_.set({"wavy", 2, now().stamp, begin, "world", sweep_guard_core::wavyHull(20, 30, 0.0)}, now().stamp);
+  push();
+  EXPECT_TRUE(await([&] { return statistics_.take().predictions_total > predictions; }));
+  EXPECT_LT(now().steady - begin, milliseconds(400));
+}
+
 TEST_F(GuardThreadTest, WhatWaitsWhenTimeJumpsIsSweptAndReported) {
   std::promise<void> go_on;
   std::future<void> busy = queue_.submit<void>([&] { go_on.get_future().wait(); });

@@ -1,6 +1,7 @@
 // The arm of arm.urdf along x, 1 m above the origin; its base rests and its joints move.
 #include <gtest/gtest.h>
 #include <sensor_msgs/JointState.h>
+#include <sweep_guard/Touches.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 
 #include "guard_probe.h"
 #include "node_fixture.h"
+#include "proximity_listener.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -188,6 +190,33 @@ TEST_F(JointStatesTest, BadPositionsAreRefused) {
   const Warning warning = jointProbe().awaitWarning(hasReason(Warning::POSE_INVALID));
   EXPECT_NE(warning.text.find("joint 'shoulder' is at nan"), std::string::npos) << warning.text;
   holdUntil(kStraight, isClearNow);
+}
+
+// By 1.5 rad within 8 ms, past the square. A joint that is only fast is told of by the diagnostics.
+TEST_F(JointStatesTest, AJointThatJumpsIsNamedAndItsTouchesAreKeptApart) {
+  const TopicListener<sweep_guard::Touches> listener("touches");
+  placeSquare("square", {0.15, 0.0, 0.85}, 0.02);
+  holdUntil(kStraight, isClearNow);
+  Positions jumped = kStraight;
+  jumped["shoulder"] = 1.5;
+  jointProbe().skipWarnings();
+  jointProbe().tick(0.008);
+  publish(jumped);
+  const Warning warning = jointProbe().awaitWarning([](const Warning& next) { return next.contact; });
+  EXPECT_NE(warning.reasons & Warning::JUMP, 0U);
+  EXPECT_NE(warning.text.find("joint 'shoulder' jumped: 75 rad/s"), std::string::npos) << warning.text;
+  const auto touches = listener.awaitNewest([](const sweep_guard::Touches& next) { return !next.objects.empty(); });
+  EXPECT_FALSE(touches.objects[0].jump_triangles.empty());
+  EXPECT_TRUE(touches.objects[0].triangles.empty());
+  holdUntil(jumped, isClearNow);
+
+  jumped["shoulder"] += 0.3;
+  jointProbe().tick(0.1);
+  publish(jumped);
+  jointProbe().awaitStatus("tool pose", [](const GuardProbe::Status& status) {
+    return status.message.find("joint 'shoulder' moved at 3 rad/s: the robot description says 1 rad/s") !=
+           std::string::npos;
+  });
 }
 
 }  // namespace

@@ -119,8 +119,8 @@ TEST_P(UsableTransformsTest, LoseNoTouch) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfAWorkpiece, UsableTransformsTest,
-                         testing::Values(Rate{"AtOnce", 0.02, 0.0}, Rate{"Seldom", 0.33, 0.0}, Rate{"SeldomAndLate", 0.33, 0.6},
-                                         Rate{"OftenAndLate", 0.02, 0.5}),
+                         testing::Values(Rate{"AtOnce", 0.02, 0.0}, Rate{"Seldom", 0.33, 0.0},
+                                         Rate{"SeldomAndLate", 0.33, 0.6}, Rate{"OftenAndLate", 0.02, 0.5}),
                          [](const auto& info) { return info.param.name; });
 
 TEST_F(LateTransformsTest, TooLateIsSteadilyUnknownAndNamesFrameAgeAndParameter) {
@@ -217,7 +217,8 @@ TEST_F(StaticChangeTest, InFramesThatNobodyUsesChangeNothing) {
     place("camera", 0.2 + 0.01 * i);
     EXPECT_FALSE(touchesOnTheWayTo({0.0, 0.0, 0.5}));
   }
-  EXPECT_EQ(count(warningsSince(warned), Warning::TIME_JUMP | Warning::NOT_SWEPT | Warning::NO_POSE | Warning::TF_FAIL), 0U)
+  EXPECT_EQ(count(warningsSince(warned), Warning::TIME_JUMP | Warning::NOT_SWEPT | Warning::NO_POSE | Warning::TF_FAIL),
+            0U)
       << probe().warnings().back().text;
 }
 

@@ -19,7 +19,7 @@ sweep_guard::ToolBalls needle() {
   return tool;
 }
 
-sweep_guard::Proximity wall(const ros::Time& now, const Eigen::Isometry3d& X_WT) {
+sweep_guard::Proximity wall(const ros::Time& now, const Eigen::Isometry3d& X_WT, double x) {
   sweep_guard::Proximity planes;
   planes.header.stamp = now;
   planes.header.frame_id = "world";
@@ -34,6 +34,7 @@ sweep_guard::Proximity wall(const ros::Time& now, const Eigen::Isometry3d& X_WT)
   planes.planes[0].mesh_id = "wall";
   planes.planes[0].triangle = 7;
   planes.planes[0].normal.x = 1.0;
+  planes.planes[0].point.x = x;
   return planes;
 }
 
@@ -89,7 +90,7 @@ void MotionWorld::step() {
   warning.level = state_.level;
   warning.reasons = state_.reasons;
   if (state_.warns) warning_.publish(warning);
-  if (state_.finds_planes) planes_.publish(wall(now, state_.X_WT));
+  if (state_.finds_planes) planes_.publish(wall(now, state_.X_WT, state_.wall));
   geometry_msgs::PoseStamped pose;
   pose.header.stamp = now - state_.pose_age;
   pose.header.frame_id = "world";

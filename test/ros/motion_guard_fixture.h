@@ -58,13 +58,14 @@ class Listener {
   ros::Subscriber subscriber_;  // after what its callback uses
 };
 
-/// Publishes every 10 ms what a guard would, of a needle before the wall x = 0, its pose, as a message and in tf by way of
+/// Publishes every 10 ms what a guard would, of a needle before a wall across x, its pose, as a message and in tf by way of
 /// a joint, and the commands of a test. The needle reaches from the origin of the tool frame to 0.1 m along its x axis,
 /// where the frame `tip` is. The frame `turned` is the world's, turned by a quarter about z.
 class MotionWorld {
  public:
   struct State {
     Eigen::Isometry3d X_WT = Eigen::Isometry3d(Eigen::Translation3d(0.8, 0.0, 0.0));
+    double wall = 0.0;  ///< its x [m]
     std::uint8_t level = sweep_guard::Warning::CLEAR;
     std::uint32_t reasons = 0;
     bool warns = true;

@@ -40,7 +40,17 @@ class MotionGuardNodeTest : public testing::Test {
   void SetUp() override {
     world_.change([](auto& state) { state = {}; });
   }
-  void TearDown() override { SetUp(); }
+  void TearDown() override {
+    robot_.shutdown();
+    SetUp();
+  }
+
+  // A robot that does at once what is sent, unless it stands.
+  void startRobot() {
+    robot_ = node_.subscribe<PoseStamped>("/pose/guarded_command", 10, [this](const PoseStamped::ConstPtr& sent) {
+      if (!stands_) world_.change([&](auto& state) { state.X_WT = fromMsg(sent->pose); });
+    });
+  }
 
   void command(const Twist& command) { this->command(command, twist_); }
   void command(const Twist& command, const ros::Publisher& publisher) {
@@ -90,6 +100,8 @@ class MotionGuardNodeTest : public testing::Test {
   Listener<PoseStamped> guarded_poses_{node_, "/pose/guarded_command"};
   Listener<MotionStatus> statuses_{node_, "/twist/motion_guard/status"};
   MotionWorld world_;
+  std::atomic<bool> stands_ = false;
+  ros::Subscriber robot_;
 };
 
 TEST_F(MotionGuardNodeTest, FreeMotionIsPassedOnBitForBitInEachType) {
@@ -275,6 +287,7 @@ TEST_F(MotionGuardNodeTest, ACommandThatIsNotFiniteIsRefused) {
 }
 
 TEST_F(MotionGuardNodeTest, APoseIsCaughtUpWithAndHeldWhenTheGuardDoesNotKnow) {
+  startRobot();
   commandPose(Eigen::Isometry3d(Eigen::Translation3d(0.81, 0.0, 0.0)));
   guarded_poses_.await([](const PoseStamped& sent) { return sent.pose.position.x == 0.81; }, "the pose");
   world_.change([](auto& state) { state.level = sweep_guard::Warning::UNKNOWN; });
@@ -288,7 +301,46 @@ TEST_F(MotionGuardNodeTest, APoseIsCaughtUpWithAndHeldWhenTheGuardDoesNotKnow) {
   }
 }
 
+// The robot was stopped by somebody else, and is released.
+TEST_F(MotionGuardNodeTest, APoseWaitsForAToolThatStandsAndIsTakenBackToItWhenTheGuardDoesNotKnow) {
+  constexpr double kReach = 0.25 * 0.03;  // max_speed * lag/time_constant
+  Listener<MotionStatus> statuses(node_, "/pose/motion_guard/status");
+  stands_ = true;
+  startRobot();
+  commandPose(Eigen::Isometry3d(Eigen::Translation3d(1.2, 0.0, 0.0)));
+  const auto stands = [](const MotionStatus& next) { return next.cause == "the tool does not follow"; };
+  const MotionStatus status = statuses.await(stands, "that it does not follow");
+  EXPECT_NE(status.code, MotionStatus::NO_WARNING);
+  EXPECT_TRUE(has(status.text, "the pose sent waits 7.5 mm and 0.0 degrees ahead of it"));
+  guarded_poses_.clear();
+  for (int i = 0; i < 50; ++i) {
+    const PoseStamped sent = guarded_poses_.await([](const PoseStamped&) { return true; }, "a pose that waits");
+    EXPECT_LE(sent.pose.position.x, 0.8 + kReach + 1e-9);
+    EXPECT_GT(sent.pose.position.x, 0.8);
+  }
+  world_.change([](auto& state) { state.level = sweep_guard::Warning::UNKNOWN; });
+  guarded_poses_.await([](const PoseStamped& next) { return std::abs(next.pose.position.x - 0.8) < 1e-9; },
+                       "the pose of the tool");
+  world_.change([](auto& state) { state.level = sweep_guard::Warning::CLEAR; });
+  stands_ = false;
+  guarded_poses_.await([](const PoseStamped& next) { return next.pose.position.x == 1.2; }, "the commanded pose");
+  statuses.await([](const MotionStatus& next) { return next.cause == "guarded"; }, "that it follows");
+}
+
+TEST_F(MotionGuardNodeTest, APoseBeyondAWallThatCameIsTakenBackToTheTool) {
+  commandPose(Eigen::Isometry3d(Eigen::Translation3d(-0.5, 0.0, 0.0)));
+  guarded_poses_.await([](const PoseStamped& next) { return next.pose.position.x < 0.794; },
+                       "a pose ahead of the tool");
+  world_.change([](auto& state) { state.wall = 0.797; });
+  guarded_poses_.await([](const PoseStamped& next) { return next.pose.position.x >= 0.799 - 1e-6; }, "one at the tool");
+  for (int i = 0; i < 50; ++i) {
+    const PoseStamped next = guarded_poses_.await([](const PoseStamped&) { return true; }, "the next pose");
+    EXPECT_GE(next.pose.position.x, 0.799 - 1e-6);
+  }
+}
+
 TEST_F(MotionGuardNodeTest, APoseThatIsRefusedIsAnsweredInTheFrameOfTheOneBefore) {
+  startRobot();
   commandPose(Eigen::Isometry3d(Eigen::Translation3d(0.81, 0.0, 0.0)));
   guarded_poses_.await([](const PoseStamped& sent) { return sent.pose.position.x == 0.81; }, "the pose");
   commandPose(Eigen::Isometry3d(Eigen::Translation3d(0.9, 0.0, 0.0)), "nowhere");
@@ -346,6 +398,7 @@ TEST_F(MotionGuardNodeTest, APoseThatIsOldByItsStampStopsTheTool) {
 
 TEST_F(MotionGuardNodeTest, APoseBehindAPlaneIsNotReached) {
   place(0.05);
+  startRobot();
   commandPose(Eigen::Isometry3d(Eigen::Translation3d(-0.02, 0.0, 0.0)));
   const PoseStamped sent = guarded_poses_.await([](const PoseStamped& next) { return next.pose.position.x < 0.0022; },
                                                 "a pose near the standoff");

@@ -187,9 +187,7 @@ void placeKnown(const std::string& frame, const Eigen::Isometry3d& X_WF) {
 
 // The tool rests, and the frame of the workpiece moves the square through it.
 TEST_F(NodeTest, FindsAWorkpieceThatMovesRigidly) {
-  const auto place_frame = [](double z) {
-    placeKnown("table", Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, z)));
-  };
+  const auto place_frame = [](double z) { placeKnown("table", Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, z))); };
   placeSquare("square", {0.0, 0.0, 0.0}, "table");
   place_frame(-1.0);
   probe().advance(0.01);
@@ -384,6 +382,7 @@ TEST_P(BadVerticesTest, AreRefusedAndAreUnknown) {
 INSTANTIATE_TEST_SUITE_P(
     Vertices, BadVerticesTest,
     ::testing::Values(BadVertices{"TooFew", [](auto& vertices) { vertices.positions.pop_back(); }},
+                      BadVertices{"TooCoarseInFloat32", [](auto& vertices) { vertices.positions[1] = 4e6F; }},
                       BadVertices{"Infinite", [](auto& vertices) { vertices.positions[0] = INFINITY; }},
                       BadVertices{"UnknownWorkpiece", [](auto& vertices) { vertices.id = "ghost"; }},
                       BadVertices{"NoId", [](auto& vertices) { vertices.id = ""; }}),

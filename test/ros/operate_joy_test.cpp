@@ -10,8 +10,8 @@ namespace {
 using Eigen::Vector3d;
 using Poses = DemoListener::Poses;
 
-const ros::Duration kPeriod(0.01);
-constexpr double kSpeed = 0.15;  // [m/s] of config/operator.yaml
+const ros::Duration kJoyPeriod(0.01);
+constexpr double kStickSpeed = 0.15;  // [m/s] of config/operator.yaml
 
 class OperateJoyTest : public ::testing::Test {
  protected:
@@ -40,8 +40,8 @@ TEST_F(OperateJoyTest, TheToolMovesWhileMessagesComeAndStopsWithThem) {
   EXPECT_EQ(positionOf(resting.back()).z(), start.z());
 
   const Poses all = listener_.awaitPoses(0);
-  EXPECT_TRUE(isEven(all, kPeriod));
-  EXPECT_LE(longestStep(all), kSpeed * kPeriod.toSec() + 1e-9);
+  EXPECT_TRUE(isEven(all, kJoyPeriod));
+  EXPECT_LE(longestStep(all), kStickSpeed * kJoyPeriod.toSec() + 1e-9);
 }
 
 // Slowly, so that a considered warning comes close to the workpiece. The button goes down and up.

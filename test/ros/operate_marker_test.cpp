@@ -12,8 +12,8 @@ using Eigen::Vector3d;
 using visualization_msgs::InteractiveMarkerFeedback;
 using Poses = DemoListener::Poses;
 
-const ros::Duration kPeriod(0.004);
-constexpr double kSpeed = 0.25;  // [m/s] of config/operator.yaml
+const ros::Duration kMarkerPeriod(0.004);
+constexpr double kFullSpeed = 0.25;  // [m/s] of config/operator.yaml
 
 // Latched: feedback before the connection is not lost.
 class Mouse {
@@ -59,8 +59,8 @@ TEST(OperateMarkerTest, TheToolFollowsTheMarkerAsADeviceWould) {
   EXPECT_TRUE(positionOf(after.back()).isApprox(goal, 1e-5));
 
   const Poses all = listener.awaitPoses(0);
-  EXPECT_TRUE(isEven(all, kPeriod));
-  EXPECT_LE(longestStep(all), kSpeed * kPeriod.toSec() + 1e-9);
+  EXPECT_TRUE(isEven(all, kMarkerPeriod));
+  EXPECT_LE(longestStep(all), kFullSpeed * kMarkerPeriod.toSec() + 1e-9);
   EXPECT_FALSE(listener.inContact());
   mouse.dragTo(start - Vector3d(0, 0, 0.12));
   listener.awaitContact();

@@ -68,7 +68,7 @@ class Peer {
 };
 
 const Eigen::Vector3d kFar(1.0, 0.0, 0.0);
-const Eigen::Vector3d kNear(0.0, 0.0, -0.05);  // in front of the tip
+const Eigen::Vector3d kInFront(0.0, 0.0, -0.05);  // in front of the tip
 
 bool saysOfThePeer(const Warning& warning, const std::string& text) {
   return hasReason(Warning::NOT_COVERED)(warning) && warning.text.find(text) != std::string::npos &&
@@ -123,11 +123,11 @@ TEST_F(OtherToolsTest, AContactNamesBothLinks) {
 
 TEST_F(OtherToolsTest, ARestartedToolIsUnknownUntilItsSurfaceComesAndThenHasThatSurface) {
   peer().start("small", 0.01);
-  restUntil(kNear, [](const Warning& warning) { return warning.reasons == 0 && warning.level != Warning::CONTACT; });
+  restUntil(kInFront, [](const Warning& warning) { return warning.reasons == 0 && warning.level != Warning::CONTACT; });
   peer().begin("large");
-  restUntil(kNear, [](const Warning& warning) { return saysOfThePeer(warning, "its surface has not come"); });
+  restUntil(kInFront, [](const Warning& warning) { return saysOfThePeer(warning, "its surface has not come"); });
   peer().publishSurface(0.1);
-  const Warning warning = restUntil(kNear, [](const Warning& one) { return one.level == Warning::CONTACT; });
+  const Warning warning = restUntil(kInFront, [](const Warning& one) { return one.level == Warning::CONTACT; });
   EXPECT_EQ(warning.mesh_id, "/peer/hand");
   peer().start("small again", 0.01);
   restUntil(kFar, isClear);

@@ -11,7 +11,7 @@
 namespace sweep_guard_ros {
 namespace {
 
-boost::shared_ptr<geometry_msgs::PoseStamped> poseAt(const std::string& frame, ros::Time stamp) {
+boost::shared_ptr<geometry_msgs::PoseStamped> poseIn(const std::string& frame, ros::Time stamp) {
   auto pose = boost::make_shared<geometry_msgs::PoseStamped>();
   pose->header.frame_id = frame;
   pose->header.stamp = stamp;
@@ -37,7 +37,7 @@ TEST(PoseInputTest, NoPoseOfALongBacklogIsLost) {
   ASSERT_EQ(publisher.getNumSubscribers(), 1U);
   input.start(supervisor);
   for (int i = 1; i <= kPoses; ++i) {
-    publisher.publish(poseAt(parameters.fixed_frame, end - ros::Duration(0.001 * (kPoses - i))));
+    publisher.publish(poseIn(parameters.fixed_frame, end - ros::Duration(0.001 * (kPoses - i))));
   }
   size_t poses = 0;
   WorkQueue::Work work;

@@ -14,8 +14,8 @@ namespace {
 using sweep_guard::Prediction;
 using sweep_guard::Warning;
 
-constexpr double kSpeed = 0.25;  // [m/s]
-constexpr double kStep = 0.01;   // [s]
+constexpr double kApproach = 0.25;  // [m/s]
+constexpr double kStep = 0.01;      // [s]
 
 class PredictionTest : public NodeTest {
  protected:
@@ -34,7 +34,7 @@ class PredictionTest : public NodeTest {
 
   // Comes down at constant speed; ends at the height.
   void descend(double from, double to) {
-    for (int i = 0; from - i * kSpeed * kStep > to; ++i) glideTo(from - i * kSpeed * kStep);
+    for (int i = 0; from - i * kApproach * kStep > to; ++i) glideTo(from - i * kApproach * kStep);
     glideTo(to);
   }
 
@@ -46,7 +46,7 @@ class PredictionTest : public NodeTest {
       probe().awaitPrediction(probe().time());  // else one from before the rest may warn later
       probe().forgetPredictions();
       const size_t begin = probe().warnings().size();
-      const ros::Time contact = probe().time() + ros::Duration(kStep + from / kSpeed);
+      const ros::Time contact = probe().time() + ros::Duration(kStep + from / kApproach);
       descend(from, to);
       probe().awaitWarning([](const Warning& warning) { return warning.header.stamp == probe().time(); });
       const auto early = [&](const Warning& warning) {
@@ -89,7 +89,7 @@ TEST_F(PredictionTest, ALonePoseIsNoMotion) {
 
 TEST_F(PredictionTest, PredictsThePosesOfTheTool) {
   descend(0.9, 0.8);
-  const Prediction prediction = glideTo(0.8 - kSpeed * kStep);
+  const Prediction prediction = glideTo(0.8 - kApproach * kStep);
   EXPECT_EQ(prediction.header.stamp, probe().time());
   EXPECT_EQ(prediction.header.frame_id, "world");
   EXPECT_EQ(prediction.tool, "tool");
@@ -141,7 +141,7 @@ TEST_F(PredictionTest, AnApproachIsConsideredThenReflexThenContact) {
 }
 
 TEST_F(PredictionTest, AWarningNamesThePredictedContact) {
-  const size_t begin = approach(0.6, 0.1 - kSpeed * kStep);
+  const size_t begin = approach(0.6, 0.1 - kApproach * kStep);
   const Prediction prediction = probe().awaitPrediction(probe().time());  // 0.39 s before the contact
   EXPECT_TRUE(prediction.collision);
   EXPECT_EQ(prediction.interval, Prediction::CONSIDERED);
@@ -168,7 +168,7 @@ TEST_F(PredictionTest, ARetreatDoesNotWarn) {
   descend(0.3, 0.02);
   probe().awaitWarning([](const Warning& warning) { return warning.level == Warning::REFLEX; });
   double z = 0.02;
-  const auto retreat = [&] { glideTo(z += kSpeed * kStep); };
+  const auto retreat = [&] { glideTo(z += kApproach * kStep); };
   while (!isClear(probe().warnings().back()) && z < 50.0) retreat();
   const size_t clear_since = probe().warnings().size();
   for (int i = 0; i < 50; ++i) retreat();
@@ -204,7 +204,7 @@ TEST_F(PredictionTest, MarkersShowWhatIsPredicted) {
   };
   restAt({0.0, 0.0, 0.3});
   MarkerArray shown;
-  for (double z = 0.2; z > 0.03; z -= kSpeed * kStep) {
+  for (double z = 0.2; z > 0.03; z -= kApproach * kStep) {
     glideTo(z);
     shown = probe().awaitMarkers(drawn_now);
     const auto triangles = markers_of(shown, "predicted_triangles");

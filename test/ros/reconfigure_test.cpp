@@ -23,7 +23,7 @@ using sweep_guard::Contacts;
 using sweep_guard::Prediction;
 using sweep_guard::Warning;
 
-constexpr double kStep = 0.01;  // [s]
+constexpr double kPosePeriod = 0.01;  // [s]
 
 template <typename Parameters, typename Value>
 void append(Parameters& parameters, const std::string& key, Value value) {
@@ -91,7 +91,7 @@ class ReconfigureTest : public NodeTest {
     placeSquare("far", {0.0, 0.0, -2.0});
     for (int i = 0; i < 20; ++i) moveTo({0.0, 0.0, 1.0});
     Prediction prediction;
-    for (int i = 1; i <= steps; ++i) prediction = predictAt({speed * kStep * i, 0.0, 1.0});
+    for (int i = 1; i <= steps; ++i) prediction = predictAt({speed * kPosePeriod * i, 0.0, 1.0});
     return prediction;
   }
   static double end(const Prediction& prediction) { return prediction.poses.back().pose.position.x; }
@@ -110,10 +110,10 @@ class ReconfigureTest : public NodeTest {
     constexpr double kSpeed = 0.25;
     probe().reset();
     for (int i = 20; i >= 0; --i) {
-      predictAt({0.0, 0.0, kSpeed * (to_go + i * kStep)});
+      predictAt({0.0, 0.0, kSpeed * (to_go + i * kPosePeriod)});
       probe().place(squareMovedTo("square", {0.0, 0.0, 0.0}, probe().time()));
     }
-    predictAt({0.0, 0.0, kSpeed * to_go - kSpeed * kStep});
+    predictAt({0.0, 0.0, kSpeed * to_go - kSpeed * kPosePeriod});
     probe().skipWarnings();
     return probe().awaitWarning([](const Warning&) { return true; });
   }
@@ -232,7 +232,7 @@ TEST_F(ReconfigureTest, TurnsAreSplitIntoSmallerSteps) {
   placeSquare("square", {0.0, 0.0, 0.0});
   const auto margin = [&] {
     moveTo({0.0, 0.0, 1.0});
-    probe().tick(kStep);
+    probe().tick(kPosePeriod);
     return probe()
         .move(poseAt({0.0, 0.0, 1.0}, probe().time(),
                      Eigen::Quaterniond(Eigen::AngleAxisd(M_PI - 0.15, Eigen::Vector3d::UnitX()))))
@@ -293,7 +293,7 @@ TEST_F(ReconfigureTest, TheTurnRateLimitDetectsAJump) {
     probe().reset();
     moveTo({0.0, 0.0, 1.0});
     moveTo({0.0, 0.0, 1.0});
-    probe().tick(kStep);
+    probe().tick(kPosePeriod);
     probe().move(poseAt({0.0, 0.0, 1.0}, probe().time(),
                         Eigen::Quaterniond(Eigen::AngleAxisd(M_PI - 0.05, Eigen::Vector3d::UnitX()))));
     return probe().awaitPrediction(probe().time());
@@ -593,7 +593,8 @@ TEST_F(ReconfigureTest, TheDescriptionHasEachParameterInAGroupWithRangeAndDefaul
   EXPECT_EQ(valueIn(description->min.doubles, "timing/pose_timeout"), 0.01);
   EXPECT_EQ(valueIn(description->max.doubles, "timing/pose_timeout"), 2.0);
   EXPECT_EQ(valueIn(description->dflt.strs, "detector"), "select");
-  if (::testing::GTEST_FLAG(filter) == "*") {
+  const testing::TestSuite& suite = *testing::UnitTest::GetInstance()->current_test_suite();
+  if (suite.test_to_run_count() == suite.total_test_count()) {
     EXPECT_EQ(offered, changed_) << "the tests above change all that may change";
   }
 }

@@ -94,7 +94,8 @@ const std::vector<Family>& families() {
       {"metamorphic", "triangles that must still be named in another description of the scene", runRelations,
        replayRelations},
       {"inside", "points inside and outside of solids, however their surfaces are sent", checkEnclosed, refuseReplay},
-      {"late", "sessions whose transforms come late, seldom and changed, against known contacts", checkLate, refuseReplay},
+      {"late", "sessions whose transforms come late, seldom and changed, against known contacts", checkLate,
+       refuseReplay},
       {"sweeps", "a tool about a workpiece of 1 600 triangles, against densely sampled exact poses", runWholeSweep,
        replayWholeSweep},
   };

@@ -15,9 +15,9 @@ namespace {
 using Eigen::Isometry3d;
 
 constexpr int kToolPoses = 30;
-constexpr int kContacts = 60;        // of each workpiece
+constexpr int kContacts = 60;  // of each workpiece
 constexpr size_t kMaxTransforms = 300;
-constexpr double kDeep = 1e-9;       // [m]: more than what poses are rounded by
+constexpr double kDeep = 1e-9;  // [m]: more than what poses are rounded by
 const Time kBegin(std::chrono::seconds(100));
 
 // Poses at ascending times.
@@ -88,13 +88,9 @@ struct LateScene {
   bool isAnew(Anew what, size_t index) const { return anew == what && index >= anew_from; }
   Isometry3d toolChange(bool changed) const { return changed && anew == Anew::kTool ? change : Isometry3d::Identity(); }
   Isometry3d tablePose(bool changed) const { return changed && anew == Anew::kTable ? X_WTable * change : X_WTable; }
-  Isometry3d trayPose(size_t i) const {
-    return isAnew(Anew::kTray, i) ? tray_W.poses[i] * change : tray_W.poses[i];
-  }
+  Isometry3d trayPose(size_t i) const { return isAnew(Anew::kTray, i) ? tray_W.poses[i] * change : tray_W.poses[i]; }
   Duration trayBegins(size_t end) const { return Duration(anew == Anew::kTray && end == anew_from ? 1 : 0); }
-  Isometry3d toolPose(size_t i) const {
-    return isAnew(Anew::kTool, i) ? change * tool_W.poses[i] : tool_W.poses[i];
-  }
+  Isometry3d toolPose(size_t i) const { return isAnew(Anew::kTool, i) ? change * tool_W.poses[i] : tool_W.poses[i]; }
 };
 
 Vector3r deepPoint(Random& random, const Body& body, Real inset) {
@@ -150,8 +146,8 @@ class SceneMaker {
   Vector3r point() { return deepPoint(random_, scene_.tool.front(), kDeep); }
   double triangleSize() { return size_ * random_.logUniform(1e-3, 1.0); }
   Time timeBetween(Time from, Time to) {
-    return from + Duration(static_cast<Duration::rep>(random_.uniform(0.0, 1.0) *
-                                                      static_cast<double>((to - from).count())));
+    return from +
+           Duration(static_cast<Duration::rep>(random_.uniform(0.0, 1.0) * static_cast<double>((to - from).count())));
   }
   void add(size_t workpiece, const Vector3r& p_M, Time known_from) {
     Triangles& triangles = scene_.triangles[workpiece];
@@ -261,9 +257,10 @@ class LateSession {
 
   void sampleTray(size_t end, Time stamp) {
     const bool changed = scene_.isAnew(LateScene::Anew::kTray, end);
-    const Motion motion = scene_.tray_W.motion(end, Isometry3d::Identity(),
-                                               changed ? scene_.change : Isometry3d::Identity());
-    store_.add("tray", {stamp, motion.at(static_cast<double>(scene_.tray_W.fraction(end, stamp, scene_.trayBegins(end))))});
+    const Motion motion =
+        scene_.tray_W.motion(end, Isometry3d::Identity(), changed ? scene_.change : Isometry3d::Identity());
+    store_.add("tray",
+               {stamp, motion.at(static_cast<double>(scene_.tray_W.fraction(end, stamp, scene_.trayBegins(end))))});
   }
 
   void hearPose(Time at) {
@@ -276,8 +273,8 @@ class LateSession {
     } else {
       wanted_.push_back(stamp);
     }
-    const bool is_anew = i == scene_.anew_from && (scene_.anew == LateScene::Anew::kTable ||
-                                                   scene_.anew == LateScene::Anew::kTool);
+    const bool is_anew =
+        i == scene_.anew_from && (scene_.anew == LateScene::Anew::kTable || scene_.anew == LateScene::Anew::kTool);
     if (is_anew) {
       pass(pose(stamp, scene_.tool_W.poses[i], /*changed=*/false));
       PoseWithFrames before = pose(stamp, scene_.toolChange(true) * scene_.tool_W.poses[i - 1], /*changed=*/true);

@@ -15,7 +15,7 @@ PairCase pairOf(const Scene& scene) {
   for (const Triangle& triangle : scene.mesh_M.triangles()) {
     for (const std::uint32_t vertex : triangle) pair.triangles.corners_M.push_back(scene.mesh_M.vertex(vertex));
   }
-  pair.triangles.streamed = scene.mesh_M.rounding() == 0.0 && scene.mesh_M.origin().isZero(0.0);
+  pair.triangles.streamed = scene.mesh_M.origin().isZero(0.0);
   return pair;
 }
 

@@ -11,8 +11,18 @@
 
 namespace sweep_guard_core {
 
-/// Largest absolute coordinate accepted [m]. Beyond it double precision is too coarse for a contact.
+/// Largest absolute coordinate accepted [m]. Beyond it double precision is too coarse for a contact. Vertices that are sent
+/// as float32 are too coarse from about 130 km on: see kMaxSentRounding.
 constexpr double kMaxCoordinate = 1e7;
+
+/// Largest float32Rounding() of vertices that are sent as float32 [m]: for two large coordinates reached at 131 km, for one
+/// at 262 km.
+constexpr double kMaxSentRounding = 0.01;
+
+/// Returns how far a vertex may be from where it was before its sender rounded it to float32 [m]: half a step of float32
+/// on each axis.
+/// @param largest  largest absolute coordinate on each axis [m]
+double float32Rounding(const Eigen::Vector3d& largest);
 
 /// What the sender says of a surface.
 enum class SurfaceKind { kMayEnclose, kSheet };
@@ -25,13 +35,15 @@ class TriangleMesh {
   /// @param vertices_M  positions [m], each coordinate finite and within +-kMaxCoordinate
   /// @param triangles   at least one, each index below vertices_M.size()
   /// @param surface     kSheet: the sender says that it encloses nothing
+  /// @param rounded     how far the positions may be from the true ones already [m], >= 0; joins rounding()
   /// @throws InvalidInput if there is no triangle, or naming the first invalid triangle or else vertex, or if the
   ///     environment variable SWEEP_GUARD_SIMD is wrong (simd::kernels())
   TriangleMesh(const std::vector<Eigen::Vector3d>& vertices_M, std::vector<Triangle> triangles,
-               SurfaceKind surface = SurfaceKind::kMayEnclose);
+               SurfaceKind surface = SurfaceKind::kMayEnclose, double rounded = 0.0);
 
   /// Replaces the positions of all vertices in one pass; rebuilds no structure. Exchanges buffers and allocates
-  /// nothing, except for a spare buffer at the first call on a mesh with renumbered vertices.
+  /// nothing, except for a spare buffer at the first call on a mesh with renumbered vertices. rounding() is then that of
+  /// positions which were rounded to float32 before.
   /// @param[in,out] positions_M  x0 y0 z0 x1 ... [m], one triple per vertex, bounds as above; on return a buffer of the
   ///                             same size with unspecified contents
   /// @throws InvalidInput for a wrong count or an invalid coordinate; mesh and positions do not change
@@ -75,7 +87,8 @@ class TriangleMesh {
   /// Returns the box along the axes of M that contains every vertex as stored [m].
   Eigen::AlignedBox3d bounds_M() const { return {origin_ + blocks_.bounds().min(), origin_ + blocks_.bounds().max()}; }
 
-  /// Returns the largest distance [m] between a vertex as given and as stored; 0 after deform().
+  /// Returns an upper bound on the distance [m] between a vertex and what is stored of it: what storing it as float32
+  /// costs, after deform() what sending it as float32 has cost (1e-7 m at coordinates of 1 m).
   double rounding() const { return rounding_; }
 
  private:

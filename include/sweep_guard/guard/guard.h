@@ -31,7 +31,8 @@ struct SweepPlan;
 /// Between poses, tool and frames move straight at constant speed in W and turn about one axis at constant rate.
 /// Between updates of a mesh, its vertices move straight at any speed. The update is a motion between the stamps of
 /// both meshes: the tool's path since the earlier stamp is swept again against the moving mesh, as far as its poses are
-/// kept. Swept poses are kept for 0.5 s.
+/// kept. Swept poses are kept for 0.5 s. An update with other triangles in the same frame is no motion: the tool's path since the
+/// last sweep is swept against the triangles from before and against the new ones.
 ///
 /// Of several poses swept at once, consecutive segments are replaced by one straight motion where no tool point
 /// deviates by more than a thousandth of the tool's bounding radius and the rotation is at most `max_rotation`. The
@@ -155,6 +156,7 @@ class Guard {
   MotionPredictor predictor_;
   std::unique_ptr<TimeBudget> budget_;
   std::optional<PoseWithFrames> newest_;  // pose of the last sweep
+  std::string jump_;                      // what jumped since then, in words
   PredictedMotion motion_;                // that is tested
   Duration interrupted_{};                // time for other things during this test
   Horizon horizon_;

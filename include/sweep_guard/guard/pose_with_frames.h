@@ -50,6 +50,9 @@ struct PoseWithFrames {
       {};                             ///< [m], by name of M; a frame whose transform is missing is left out
   std::vector<BodyPose> bodies = {};  ///< of each body of the guarded tool; empty: it is one body, in T
   RobotState state = {};              ///< of the robot whose bodies these are; means nothing without any
+  /// What jumped on the way to this pose, in words, as in "joint 'elbow' jumped: 130 rad/s": the motion does not go on from
+  /// there. Empty: nothing did.
+  std::string jump = {};
   /// Of this pose: what is not moved to it from the pose before, because a static transform has changed. The motion goes on
   /// from here for these, and does not come here for the others.
   std::optional<PlacedAnew> anew = {};

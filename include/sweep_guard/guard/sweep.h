@@ -15,6 +15,7 @@
 #include "sweep_guard/geometry/tool.h"
 #include "sweep_guard/guard/allowed_contact.h"
 #include "sweep_guard/guard/workpiece.h"
+#include "sweep_guard/prediction/jump.h"
 
 namespace sweep_guard_core {
 
@@ -118,20 +119,33 @@ struct SweptObject {
   SweepResult result;
 };
 
+/// Motion of the tool, seen from a frame of workpieces, that is too fast to be believed. It is swept all the same.
+struct FrameJump {
+  std::string frame;
+  JumpSpeed speed;
+};
+
 /// Reports one step of the guard: the sweeps up to one pose.
 struct SweepReport {
-  Time start;          ///< earliest `interval_start` of `objects`; `end` at the first pose and if there are none
-  Time end;            ///< stamp of the pose
-  Duration backlog{};  ///< time from the first pose given to Guard::pass() since the last sweep to `end`; 0: none
+  Time start;  ///< earliest `interval_start` of `objects`; `end` at the first pose and if there are none
+  Time end;    ///< stamp of the pose
+  /// How long the first pose given to Guard::pass() since the last sweep waited: until the pose of this sweep was received. 0: no
+  /// pose waited.
+  Duration backlog{};
   std::vector<SweptObject> objects;  ///< every workpiece swept, in the order given to sweep() unless a sweep failed
   Workpieces unplaced;               ///< workpieces that were not swept because their frame is unknown at `end`
   /// Workpieces whose sweep failed, for one body of the tool at least; `objects` has what the others met.
   std::vector<SweepFailure> failures;
+  /// Workpieces that have other triangles since they were last swept, with the triangles from before: the tool may have met these
+  /// on the way to the pose. As a rule empty.
+  std::vector<SweptObject> replaced = {};
+  std::string jump = {};              ///< what jumped on the way, in words (PoseWithFrames::jump); empty: nothing
+  std::vector<FrameJump> jumps = {};  ///< frames against which the tool, or a body of it, jumped on the way: each once
   /// Frames that come so late that more poses waited for them than are kept: the tool was swept straight past the oldest ones.
   std::set<std::string> passed_over = {};
 
   double margin() const;           ///< largest margin of all objects [m]; 0 if there are none
-  bool contact() const;            ///< the tool met an object, or it is not ruled out that it did
+  bool contact() const;            ///< the tool met an object, also a replaced one, or it is not ruled out that it did
   bool unintendedContact() const;  ///< the same, but for contacts as intended (Intention)
   bool complete() const;  ///< there is at least one workpiece, and every workpiece was swept with all its updates
 };

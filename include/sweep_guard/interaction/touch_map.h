@@ -23,13 +23,14 @@ struct ObjectTouches {
   std::string id;
   std::uint32_t revision = 0;
   std::vector<TriangleTouches> triangles;  ///< those touched, in the order of their first touches
+  TriangleSet jump_triangles = {};  ///< those touched along a jump, which counts nowhere else: ascending, each once
 };
 
 /// Counts in how many sweeps the tool touched each triangle of the workpieces, and keeps the largest depth.
 ///
 /// A sweep touches the triangles for which the narrow phase finds an impact, also where contact is intended or allowed;
 /// without narrow phase, all that it does not rule out. It counts once, however many poses it passes and bodies the tool
-/// has. Depths are those at the swept poses: what a tool does on the way in and out within one sweep has depth 0.
+/// has. A sweep along a jump (SweepReport::jumps) is not counted: its triangles are kept apart. Depths are those at the swept poses: what a tool does on the way in and out within one sweep has depth 0.
 ///
 /// Deformations keep the counts. They begin anew when the triangles or the revision of a workpiece change, and after it
 /// was away. A triangle of a workpiece that was swept costs 12 bytes. Once a workpiece was swept and the buffers are as
@@ -56,13 +57,16 @@ class TouchMap {
     std::shared_ptr<const Workpiece> workpiece;  // as swept last
     std::vector<TouchCount> of_triangle;
     std::vector<std::uint32_t> triangles;  // those touched
+    TriangleSet jump_triangles;            // those touched along a jump
+
+    bool empty() const { return triangles.empty() && jump_triangles.empty(); }
   };
 
   void forgetRemoved(const Workpieces& workpieces);
   Touched& touchedOf(const std::shared_ptr<const Workpiece>& workpiece);
   void beginAnew(Touched& touched);
   void findTouched(const SweepResult& result);
-  void count(Touched& touched) const;
+  void count(const SweepResult& result, Touched& touched) const;
 
   std::map<std::string, Touched> touched_;  // by id of the workpiece
   std::uint64_t changes_ = 0;

@@ -25,12 +25,12 @@ struct WarningThresholds {
 struct WarningLimits {
   Duration pose_timeout;  ///< a pose older than this is stale; > 0
   Duration mesh_timeout;  ///< a workpiece older than this is stale; > 0; Duration::max(): never
-  Duration hold_time;     ///< how long a contact, a warning, an overload or a loss is shown after its end; >= 0
+  Duration hold_time;     ///< how long a contact, a warning, an overload, a loss or a jump is shown after its end; >= 0
   Duration reflex = std::chrono::milliseconds(100);       ///< end of the reflex interval, counted from now, > 0
   Duration considered = std::chrono::milliseconds(1000);  ///< end of the considered interval, > reflex
   Duration tick = std::chrono::milliseconds(15);          ///< longest time until the next computeWarning(); >= 0
-  /// Longest span of poses swept at once, and longest wait of a pose, without a reason; >= 0. A pose may wait for as
-  /// long as the newest prediction took, if that is longer.
+  /// Longest wait of poses that are swept at once, and of a pose that is not swept yet, without a reason; >= 0. The latter may
+  /// wait for as long as the newest prediction took, if that is longer.
   Duration overload = std::chrono::milliseconds(20);
   WarningThresholds thresholds = {};
   Duration acknowledge_time = std::chrono::seconds(10);  ///< longest time that a warning stays acknowledged; >= 0

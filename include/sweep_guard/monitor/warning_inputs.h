@@ -25,6 +25,8 @@ struct WarningInputs {
     bool dropped = false;   ///< an update was dropped unread, and no later one has been swept
     bool ages = true;       ///< false: of another tool
     size_t open_edges = 0;  ///< borders of its surface, TriangleMesh::openEdges()
+    /// Until when other triangles, which were swept at the newest pose, count for these, which replaced them; empty: they do not.
+    std::optional<SteadyTime> stands_in_until = {};
   };
   /// Another tool that is watched, too.
   struct OtherTool {
@@ -35,9 +37,9 @@ struct WarningInputs {
   /// A frame of workpieces that moves, as transforms tell.
   struct Frame {
     std::string name;
-    Timestamps newest;              ///< of its newest transform
-    Duration period{};              ///< between its transforms, as a rule
-    Duration late{};                ///< its age when it was last found to be late
+    Timestamps newest;                     ///< of its newest transform
+    Duration period{};                     ///< between its transforms, as a rule
+    Duration late{};                       ///< its age when it was last found to be late
     std::optional<SteadyTime> found = {};  ///< when that was; empty: never
   };
   struct Contact {
@@ -64,7 +66,7 @@ struct WarningInputs {
   };
   /// Poses that waited and were swept at once. `found`: when.
   struct Backlog {
-    Duration span{};  ///< from the first to the last of these poses
+    Duration waited{};  ///< the first of these poses
     SteadyTime found;
   };
   /// Something that is reported for a while after `found`.
@@ -91,6 +93,7 @@ struct WarningInputs {
   Time covered_until;                 ///< every workpiece is tested up to here, measured or predicted; epoch: never
   std::optional<Backlog> overload;    ///< newest backlog that exceeded the limit
   std::optional<Event> pose_loss;     ///< newest poses that were sent and did not arrive
+  std::optional<Event> jump;          ///< newest motion that is too fast to be believed, in words
   std::optional<Event> unread;        ///< newest message on a mesh topic that belongs to no workpiece
   std::vector<std::string> required;  ///< ids of the workpieces that must be there: ascending
   std::optional<SteadyTime> waiting_since;  ///< when the oldest pose that is not yet swept was received

@@ -135,12 +135,14 @@ class WarningMonitor {
   /// Reports that poses were sent and did not arrive. The warning says so for the hold time; its level stays.
   void posesLost(const std::string& message, SteadyTime now);
 
-  /// Sets the newest snapshots of all workpieces, ascending by id (not checked).
-  void setWorkpieces(const Workpieces& workpieces);
+  /// Sets the newest snapshots of all workpieces, ascending by id (not checked). Where triangles replace others in the same
+  /// frame, what was swept and predicted with those counts until these are swept and predicted, for up to 50 ms.
+  /// @param now  when they came; empty: each when it was received
+  void setWorkpieces(const Workpieces& workpieces, std::optional<SteadyTime> now = {});
 
   /// Reports a sweep to a pose, and clears the faults from before the pose's checkpoint. Does nothing if the monitor
   /// was restarted since the checkpoint; if that was by timeJumped(), a contact counts as one that is over. Each failure in the
-  /// report becomes a new fault, kDetectorFault.
+  /// report becomes a new fault, kDetectorFault. The warning tells of jumps in the report for the hold time; its level stays.
   /// @param checkpoint  taken when the pose was received
   void swept(const SweepReport& report, const Timestamps& pose, const Checkpoint& checkpoint, SteadyTime now);
 
@@ -237,6 +239,7 @@ class WarningMonitor {
   std::string whyNotAcknowledgedLocked(const std::string& id, const Instant& now) const;
   std::string refusal(const std::vector<std::string>& ids = {}) const;
   void meets(const Workpiece& workpiece, const std::vector<std::uint32_t>& triangles, SteadyTime now);
+  void noteJump(const SweepReport& report, SteadyTime now);
   void addFailures(const std::vector<SweepFailure>& failures, const char* what);
   void beginCoverage(const Prediction& prediction);
   WarningInputs inputsAbout(const std::vector<std::string>& ids) const;
@@ -249,8 +252,8 @@ class WarningMonitor {
   mutable PriorityMutex mutex_;
   WarningLimits limits_;
   std::uint64_t epoch_ = 0;
-  std::uint64_t first_epoch_ = 0;  // from this one on, time has jumped between the epochs
-  std::uint64_t placed_anew_ = 0;  // number of the newest fault of placedAnew()
+  std::uint64_t first_epoch_ = 0;         // from this one on, time has jumped between the epochs
+  std::uint64_t placed_anew_ = 0;         // number of the newest fault of placedAnew()
   mutable WarningInputs inputs_;          // covered_until, waiting_since and hung are those of the last warning
   const std::unique_ptr<Faults> faults_;  // these keep their part of the inputs
   const std::unique_ptr<LateFrames> late_frames_;

@@ -33,6 +33,16 @@ double radiusAbout(const Eigen::Vector3d& p_T, const ToolBalls& tool);
 /// Returns whether each plane belongs to a piece of this tool.
 bool belongsTo(const PlaneSet& planes, const ToolBalls& tool);
 
+/// Returns an upper bound of the way of any tool point from one pose to another [m].
+/// @param radius  largest distance of a tool point from the origin of the tool frame [m]
+double farthestWay(const Eigen::Isometry3d& from_WT, const Eigen::Isometry3d& to_WT, double radius);
+
+/// Returns whether a surface lies between two poses: a piece that is before its plane at the first one reaches beyond it at
+/// the other one, or some tool point may reach what no plane stands for.
+/// @param planes  belong to the tool (belongsTo())
+bool passesASurface(const PlaneSet& planes, const ToolBalls& tool, const Eigen::Isometry3d& from_WT,
+                    const Eigen::Isometry3d& to_WT);
+
 /// @throws InvalidInput  if a value is not finite or out of range, with what it is
 void requireUsable(const PlaneSet& planes);
 void requireUsable(const ToolBalls& tool);

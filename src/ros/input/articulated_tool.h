@@ -25,6 +25,7 @@ class ArticulatedTool {
     Eigen::Isometry3d X_WT;
     std::vector<sweep_guard_core::BodyPose> bodies;
     sweep_guard_core::RobotState state;
+    std::string jump = {};  ///< as of PoseWithFrames
   };
 
   /// @param live  with an articulated tool; its bodies may change, its joints do not

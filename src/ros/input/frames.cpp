@@ -64,6 +64,7 @@ void Frames::onTransforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& ev
       countFrames(transform);
       const std::string publisher = printable(event.getPublisherName());
       if (is_static && isHeldBack(transform, publisher)) continue;
+      if (!is_static) notePublisher(transform, event.getPublisherName());
       buffer_.setTransform(transform, publisher, is_static);
       tree_.add(withoutSlash(transform.header.frame_id), withoutSlash(transform.child_frame_id));
       if (!is_static) moved(transform);
@@ -84,6 +85,21 @@ void Frames::checkStamp(const ros::Time& stamp) {
   const std::lock_guard lock(clock_mutex_);
   const std::string refusal = clock_.refusal(fromMsg(stamp), now());
   if (!refusal.empty()) throw sweep_guard_core::InvalidInput(refusal);
+}
+
+void Frames::notePublisher(const geometry_msgs::TransformStamped& transform, const std::string& node) {
+  publishers_.add(
+      withoutSlash(transform.child_frame_id), node,
+      {fromMsg(transform.header.stamp), withoutSlash(transform.header.frame_id), fromMsg(transform.transform)},
+      std::chrono::steady_clock::now());
+}
+
+std::string Frames::conflict() const {
+  if (!publishers_.hasConflicts()) return {};
+  for (const auto& [frame, text, found] : publishers_.conflicts(std::chrono::steady_clock::now())) {
+    if (tree_.isUsed(frame)) return text;
+  }
+  return {};
 }
 
 // A change that counts waits until what moved before it is swept. It is told of once it waits: a pose that is received later

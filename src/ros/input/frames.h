@@ -15,6 +15,7 @@
 
 #include "ros/bounded.h"
 #include "ros/gate.h"
+#include "ros/input/frame_publishers.h"
 #include "ros/input/frame_tree.h"
 #include "ros/input/transform_clock.h"
 #include "ros/log_throttle.h"
@@ -72,6 +73,9 @@ class Frames {
   /// Any thread.
   void checkClock();
 
+  /// Returns what is wrong with a transform that counts and that several nodes publish (FramePublishers), in words; empty: nothing.
+  std::string conflict() const;
+
   /// Calls back after every transform, in the thread of the listener, until the handle is destroyed. Also in the thread of
   /// applyStaticChanges().
   std::shared_ptr<void> onChange(std::function<void()> callback);
@@ -92,6 +96,7 @@ class Frames {
  private:
   void onTransforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& event, bool is_static);
   void checkStamp(const ros::Time& stamp);
+  void notePublisher(const geometry_msgs::TransformStamped& transform, const std::string& node);
   void moved(const geometry_msgs::TransformStamped& transform);
   bool isHeldBack(const geometry_msgs::TransformStamped& transform, const std::string& publisher);
   void countFrames(const geometry_msgs::TransformStamped& transform);
@@ -105,11 +110,12 @@ class Frames {
   FrameTree tree_;
   std::mutex moves_mutex_;  // of the next one
   std::shared_ptr<Gate<>> on_move_;
-  mutable std::mutex changes_mutex_;                // of the next ones
-  std::map<std::string, StaticChange> held_back_;   // by child
+  mutable std::mutex changes_mutex_;               // of the next ones
+  std::map<std::string, StaticChange> held_back_;  // by child
   sweep_guard_core::SteadyTime held_back_since_;
   std::uint64_t static_changes_ = 0;
-  std::set<std::string> known_;                                               // frames in the buffer
+  std::set<std::string> known_;  // frames in the buffer
+  FramePublishers publishers_;
   LogThrottle log_;
   std::mutex clock_mutex_;  // of the next one
   TransformClock clock_;

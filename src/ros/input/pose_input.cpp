@@ -12,7 +12,7 @@ namespace {
 
 using sweep_guard_core::Reason;
 
-constexpr size_t kMaxWaitingPoses = 8192;       // poses
+constexpr size_t kMaxWaitingPoses = 8192;  // poses
 constexpr size_t kMaxToolFrames = 16;      // made-up names take no room from others
 constexpr size_t kMaxMessageSize = 16384;  // a frame name of any sense fits [bytes]
 constexpr const char* kPassed = "positions of joints were dropped: others were silent meanwhile";
@@ -48,8 +48,8 @@ void moveTool(const Eigen::Isometry3d& motion_W, sweep_guard_core::PoseWithFrame
   pose.state.X_WR = motion_W * pose.state.X_WR;
 }
 
-std::optional<Eigen::Isometry3d> poseIfKnown(const Frames& frames, const std::string& target,
-                                             const std::string& source, sweep_guard_core::Time stamp) {
+std::optional<Eigen::Isometry3d> poseIfKnown(const Frames& frames, const std::string& target, const std::string& source,
+                                             sweep_guard_core::Time stamp) {
   try {
     return frames.lookup(target, source, stamp);
   } catch (const FrameError&) {
@@ -95,6 +95,7 @@ PoseInput::PoseInput(const ros::NodeHandle& node, const LiveParameters& live, co
       workpieces_(dependencies.workpieces),
       monitor_(dependencies.monitor),
       queue_(dependencies.queue),
+      jumps_(live),
       moving_frames_(fixed_frame_, {frames_, dependencies.frame_motions, monitor_, queue_, record_}) {
   frames_moved_ = frames_.onMove([this] { onFramesMoved(); });
   if (live.initial().articulated) {
@@ -144,8 +145,19 @@ void PoseInput::pushKnownPoses(sweep_guard_core::SteadyTime received, const Chec
   while (articulated_->next(root, known_)) {
     if (articulated_->leavesOut()) monitor_.fault(sweep_guard_core::kPosesUnswept, kPassed);
     record_.received({known_.back().stamp, received});
-    for (ArticulatedTool::Pose& pose : known_) push(received, std::move(pose), checkpoint);
+    const std::string jump = jumpTo(known_.back());
+    for (ArticulatedTool::Pose& pose : known_) {
+      pose.jump = jump;
+      push(received, std::move(pose), checkpoint);
+    }
   }
+}
+
+std::string PoseInput::jumpTo(const ArticulatedTool::Pose& state) {
+  std::string jump = jumps_.jumpTo(state);
+  const std::string faster = jumps_.faster();
+  if (!faster.empty()) record_.warn(faster);
+  return jump;
 }
 
 // A publisher that does not count, or begins again, loses nothing.
@@ -162,6 +174,13 @@ void PoseInput::countLost(const std::string& publisher, std::uint32_t sequence) 
 
 bool PoseInput::hasSeveralPublishers() const {
   return subscriber_ && !allow_several_publishers_ && subscriber_.getNumPublishers() > 1;
+}
+
+void PoseInput::reportConflict() {
+  const std::string conflict = allow_several_publishers_ ? "" : frames_.conflict();
+  if (conflict.empty()) return;
+  monitor_.fault(sweep_guard_core::kMultiPublisher, conflict);
+  log_.error("conflict", conflict);
 }
 
 // Runs in the thread of the tf listener, or where static transforms are applied, one at a time.
@@ -196,12 +215,14 @@ void PoseInput::begin() {
     root_waits_since_.reset();
     queued_before_.X_WF.reset();
     if (articulated_) articulated_->reset();
+    jumps_.reset();
   }
   checkpoint_ = checkpoint;
   // After the checkpoint: the sweep to this pose does not end the fault.
   if (hasSeveralPublishers()) {
     monitor_.fault(sweep_guard_core::kMultiPublisher, "several nodes publish tool poses on " + source_);
   }
+  reportConflict();
 }
 
 void PoseInput::accept(const ReceivedPose& pose) {
@@ -246,7 +267,9 @@ bool PoseInput::place(const WaitingPose& waiting) {
   tool_given_in_ = waiting.pose.frame;
   const Eigen::Isometry3d X_WT = *X_WF * waiting.pose.X_FT;
   if (!articulated_) {
-    push(received, {stamp, X_WT, {}, {}}, waiting.checkpoint);
+    ArticulatedTool::Pose known{stamp, X_WT, {}, {}};
+    known.jump = jumpTo(known);
+    push(received, std::move(known), waiting.checkpoint);
     return true;
   }
   articulated_->add(stamp, X_WT);
@@ -310,9 +333,10 @@ void PoseInput::useWorkpieceFrames() {
 }
 
 void PoseInput::push(sweep_guard_core::SteadyTime received, ArticulatedTool::Pose pose, const Checkpoint& checkpoint) {
-  auto& [stamp, X_WT, bodies, state] = pose;
+  auto& [stamp, X_WT, bodies, state, jump] = pose;
   useWorkpieceFrames();
   sweep_guard_core::PoseWithFrames placed{stamp, received, X_WT, {}, std::move(bodies), std::move(state)};
+  placed.jump = std::move(jump);
   placed.X_WM = moving_frames_.locate(*workpiece_frames_, stamp);
   if (frames_.staticChanges() != static_changes_) pushPlacedAnew(placed, checkpoint);
   push(std::move(placed), checkpoint);
@@ -327,6 +351,7 @@ void PoseInput::pushPlacedAnew(sweep_guard_core::PoseWithFrames& pose, const Che
   if (moving_frames_.applyStaticChanges()) push(pose, checkpoint);
   const auto X_WF_anew = poseIfKnown(frames_, fixed_frame_, tool_given_in_, pose.stamp);
   if (X_WF && X_WF_anew) moveTool(*X_WF_anew * X_WF->inverse(), pose);
+  jumps_.reset();  // what is placed anew does not jump
   pose.X_WM = moving_frames_.resting(*workpiece_frames_);
   if (before.X_WF) pushBefore(before, pose, checkpoint);
 }
@@ -340,8 +365,8 @@ void PoseInput::pushBefore(const QueuedBefore& before, sweep_guard_core::PoseWit
   anew.stamp = pose.stamp;
   anew.received = pose.received;
   anew.X_WM = pose.X_WM;
-  anew.anew = sweep_guard_core::PlacedAnew{X_WF->matrix() != before.X_WF->matrix(),
-                                           movedFrames(before.pose.X_WM, pose.X_WM)};
+  anew.anew =
+      sweep_guard_core::PlacedAnew{X_WF->matrix() != before.X_WF->matrix(), movedFrames(before.pose.X_WM, pose.X_WM)};
   for (const std::string& frame : anew.anew->frames) pose.drifts[frame] = {};
   moveTool(*X_WF * before.X_WF->inverse(), anew);
   push(std::move(anew), checkpoint);

@@ -17,6 +17,7 @@
 #include "ros/bounded.h"
 #include "ros/input/articulated_tool.h"
 #include "ros/input/frames.h"
+#include "ros/input/jump_watch.h"
 #include "ros/input/moving_frames.h"
 #include "ros/log_throttle.h"
 #include "ros/parameters/parameters.h"
@@ -73,6 +74,7 @@ class PoseInput {
   void onMessage(const ros::MessageEvent<const geometry_msgs::PoseStamped>& event);
   void countLost(const std::string& publisher, std::uint32_t sequence);
   bool hasSeveralPublishers() const;
+  void reportConflict();
   void onTransforms();
   template <typename Accept>
   void refuseWhatFails(const Accept& accept);
@@ -93,6 +95,7 @@ class PoseInput {
   void pushPlacedAnew(sweep_guard_core::PoseWithFrames& pose, const Checkpoint& checkpoint);
   void pushBefore(const QueuedBefore& before, sweep_guard_core::PoseWithFrames& pose, const Checkpoint& checkpoint);
   void push(sweep_guard_core::PoseWithFrames pose, const Checkpoint& checkpoint);
+  std::string jumpTo(const ArticulatedTool::Pose& state);
   void refuse(sweep_guard_core::Reason reason, const std::string& message);
 
   const std::string fixed_frame_;
@@ -107,17 +110,18 @@ class PoseInput {
 
   Checkpoint checkpoint_;  // of the previous input
   std::optional<sweep_guard_core::Time> previous_stamp_;
-  std::deque<WaitingPose> waiting_poses_;                           // for the transform of the first
-  std::optional<sweep_guard_core::SteadyTime> root_waits_since_;    // of the next state of the joints
-  std::atomic<bool> waits_ = false;                                 // any of these
-  std::set<std::string> tool_frames_;                               // that poses were given in
-  std::string tool_given_in_;                                       // the newest of these
-  std::shared_ptr<const std::set<std::string>> workpiece_frames_;   // that are in use
+  std::deque<WaitingPose> waiting_poses_;                          // for the transform of the first
+  std::optional<sweep_guard_core::SteadyTime> root_waits_since_;   // of the next state of the joints
+  std::atomic<bool> waits_ = false;                                // any of these
+  std::set<std::string> tool_frames_;                              // that poses were given in
+  std::string tool_given_in_;                                      // the newest of these
+  std::shared_ptr<const std::set<std::string>> workpiece_frames_;  // that are in use
   QueuedBefore queued_before_;
-  std::uint64_t static_changes_ = 0;                                // before that pose
+  std::uint64_t static_changes_ = 0;  // before that pose
+  JumpWatch jumps_;
   std::optional<sweep_guard_core::Time> last_transform_;  // used by the tf listener's thread only
-  std::string publisher_;                       // of the previous pose
-  std::uint32_t sequence_ = 0;                  // of the previous pose
+  std::string publisher_;                                 // of the previous pose
+  std::uint32_t sequence_ = 0;                            // of the previous pose
   std::atomic<std::uint64_t> lost_ = 0;
   std::atomic<size_t> waiting_ = 0;  // poses from tf
   LogThrottle log_;

@@ -129,20 +129,24 @@ void CommandCycle::limitNewest(const Instant& at, bool only_if_changed) {
   const sweep_guard_core::MotionInputs known = takeInputs(newest);
   if (waitsForRelease(known, at)) return sendZero(at);
   try {
-    MotionCommand command = port_->read(known.pose, std::clamp(at.steady - sent_, kShortest, period_.longest()));
+    MotionCommand command = port_->read(known, cycleAt(at));
     command.timestamps = *command_;
     command.period = longestInForce();
     const sweep_guard_core::GuardedMotion motion = guard_.guard(known, command, at);
-    if (!only_if_changed || sent_W_ != motion.twist_W) port_->send(motion.twist_W);
+    if (!only_if_changed || sent_W_ != motion.twist_W) port_->send(motion);
     sent_W_ = motion.twist_W;
     permission_ = motion.decision.permission;
-    sources_.status.update(statusOf(motion, newest.planes.get()));
+    sources_.status.update(statusOf(motion, newest.planes.get(), port_->standingLead()));
   } catch (const sweep_guard_core::Error& error) {
     if (!only_if_changed) record_.error(error.what(), /*refused=*/true);
     sendZero(at);
     sources_.status.update(refusedStatus(error.what()));
   }
   sent_ = at.steady;
+}
+
+CommandPort::Cycle CommandCycle::cycleAt(const Instant& at) const {
+  return {at, std::clamp(at.steady - sent_, kShortest, period_.longest()), period_.longest()};
 }
 
 // MoveIt Servo, which listens to the scale, takes no other type.
@@ -153,7 +157,7 @@ bool CommandCycle::waitsForRelease(const sweep_guard_core::MotionInputs& known, 
 
 void CommandCycle::sendZero(const Instant& at) {
   guard_.stop(at.steady);
-  port_->sendZero();
+  port_->sendZero(sources_.tool_pose.newest(), cycleAt(at));
   sent_W_.reset();
   permission_ = Permission::kStop;
   sent_ = at.steady;

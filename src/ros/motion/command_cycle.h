@@ -64,6 +64,7 @@ class CommandCycle {
   void update(const sweep_guard_core::Instant& at);
   bool letsThrough(const sweep_guard_core::Instant& at) const;
   sweep_guard_core::Duration longestInForce() const;
+  CommandPort::Cycle cycleAt(const sweep_guard_core::Instant& at) const;
   sweep_guard_core::MotionInputs takeInputs(GuardInput::Newest& newest) const;
   void limitNewest(const sweep_guard_core::Instant& at, bool only_if_changed);
   bool waitsForRelease(const sweep_guard_core::MotionInputs& known, const sweep_guard_core::Instant& at) const;

@@ -5,6 +5,7 @@
 #include <geometry_msgs/TwistStamped.h>
 #include <boost/make_shared.hpp>
 
+#include <algorithm>
 #include <utility>
 
 #include "sweep_guard/motion/pose_follower.h"
@@ -14,7 +15,10 @@ namespace sweep_guard_ros {
 namespace {
 
 using sweep_guard_core::Duration;
+using sweep_guard_core::GuardedMotion;
 using sweep_guard_core::MotionCommand;
+using sweep_guard_core::MotionInputs;
+using sweep_guard_core::Permission;
 using sweep_guard_core::Time;
 using sweep_guard_core::Timestamps;
 using sweep_guard_core::Twist;
@@ -95,9 +99,9 @@ class TwistPort : public TypedPort<Msg> {
         linear_scale_(parameters.linear_scale),
         angular_scale_(parameters.angular_scale) {}
 
-  MotionCommand read(const std::optional<CommandPort::ToolPose>& tool, Duration /*period*/) override {
+  MotionCommand read(const MotionInputs& known, const CommandPort::Cycle& /*cycle*/) override {
     const geometry_msgs::Twist& msg = twistOf(this->newest());
-    R_WC_ = this->frames().poseOf(headerOf(this->newest()).frame_id, tool).linear();
+    R_WC_ = this->frames().poseOf(headerOf(this->newest()).frame_id, known.pose).linear();
     MotionCommand command;
     command.point_T = this->frames().point().translation();
     command.twist_W = {R_WC_ * (linear_scale_ * fromXyz(msg.linear)), R_WC_ * (angular_scale_ * fromXyz(msg.angular))};
@@ -105,7 +109,8 @@ class TwistPort : public TypedPort<Msg> {
     return command;
   }
 
-  void send(const Twist& let_through_W) override {
+  void send(const GuardedMotion& motion) override {
+    const Twist& let_through_W = motion.twist_W;
     if (let_through_W == commanded_W_) return this->publishNewest();
     const auto msg = boost::make_shared<Msg>(this->newest());
     geometry_msgs::Twist& twist = twistOf(*msg);
@@ -114,7 +119,7 @@ class TwistPort : public TypedPort<Msg> {
     this->publish(msg);
   }
 
-  void sendZero() override {
+  void sendZero(const std::optional<CommandPort::ToolPose>& /*tool*/, const CommandPort::Cycle& /*cycle*/) override {
     const auto msg = boost::make_shared<Msg>(this->newest());
     twistOf(*msg) = {};
     stampNow(*msg);
@@ -132,32 +137,42 @@ class PosePort : public TypedPort<geometry_msgs::PoseStamped> {
  public:
   PosePort(const ros::NodeHandle& node, const MotionParameters& parameters, const CommandFrames& frames,
            Callbacks callbacks)
-      : TypedPort(node, frames, std::move(callbacks)), follower_(parameters.follower) {}
+      : TypedPort(node, frames, std::move(callbacks)),
+        silence_(parameters.options.permission.silence),
+        follower_(parameters.follower) {}
 
   bool isPose() const override { return true; }
 
-  MotionCommand read(const std::optional<ToolPose>& tool, Duration period) override {
-    if (!tool) throw FrameError("no tool pose yet");
-    const Eigen::Isometry3d X_TP = frames().point();
+  MotionCommand read(const MotionInputs& known, const Cycle& cycle) override {
+    if (!known.pose) throw FrameError("no tool pose yet");
+    X_TP_ = frames().point();
     const Eigen::Isometry3d command_CP = fromMsg(newest().pose);
-    X_WC_ = frames().poseOf(newest().header.frame_id, tool);
+    X_WC_ = frames().poseOf(newest().header.frame_id, known.pose);
     frame_ = newest().header.frame_id;
-    if (!follower_.begun()) follower_.begin(tool->X_WT * X_TP);
+    if (!follower_.begun()) follower_.begin(known.pose->X_WT * X_TP_);
+    observe(known.pose, cycle);
+    if (tool_is_fresh_ && passesASurface(known)) follower_.takeBack();
     MotionCommand command;
-    command.point_T = X_TP.translation();
-    command.twist_W = follower_.towards(X_WC_ * command_CP, period);
-    command.rest_WT = follower_.sent() * X_TP.inverse();
+    command.point_T = X_TP_.translation();
+    command.twist_W = follower_.towards(X_WC_ * command_CP, cycle.since_sent);
+    command.rest_WT = follower_.sent() * X_TP_.inverse();
     return command;
   }
 
-  void send(const Twist& let_through_W) override {
-    follower_.moveOn(let_through_W);
+  void send(const GuardedMotion& motion) override {
+    if (motion.decision.permission == Permission::kStop) {
+      follower_.hold(tool_is_fresh_);
+    } else {
+      follower_.moveOn(motion.twist_W);
+    }
     if (follower_.reached()) return publishNewest();
     publishSent(newest().header.stamp);
   }
 
-  void sendZero() override {
+  void sendZero(const std::optional<ToolPose>& tool, const Cycle& cycle) override {
     if (!follower_.begun()) return;
+    observe(tool, cycle);
+    follower_.hold(tool_is_fresh_);
     followFrame();
     publishSent(ros::Time::now());
   }
@@ -165,7 +180,26 @@ class PosePort : public TypedPort<geometry_msgs::PoseStamped> {
   void pause() override { follower_.end(); }
   void rebase() override { follower_.rebase(); }
 
+  std::optional<Lead> standingLead() const override {
+    if (!follower_.waits()) return {};
+    const Eigen::Isometry3d X_TS = follower_.tool()->inverse() * follower_.sent();
+    return Lead{X_TS.translation().norm(), Eigen::AngleAxisd(X_TS.linear()).angle()};
+  }
+
  private:
+  void observe(const std::optional<ToolPose>& tool, const Cycle& cycle) {
+    tool_is_fresh_ = tool && age(tool->timestamps, cycle.now) <= silence_;
+    if (!tool) return;
+    const Duration tool_age = std::max(Duration::zero(), age(tool->timestamps, cycle.now));
+    follower_.observe({tool->X_WT * X_TP_, tool_age, cycle.period, cycle.now.steady});
+  }
+
+  bool passesASurface(const MotionInputs& known) const {
+    if (!known.planes || !known.tool || !belongsTo(*known.planes, *known.tool)) return false;
+    const Eigen::Isometry3d sent_WT = follower_.sent() * X_TP_.inverse();
+    return sweep_guard_core::passesASurface(*known.planes, *known.tool, known.pose->X_WT, sent_WT);
+  }
+
   // The frame may move while the tool stands still.
   void followFrame() {
     try {
@@ -182,8 +216,11 @@ class PosePort : public TypedPort<geometry_msgs::PoseStamped> {
     publish(msg);
   }
 
+  const Duration silence_;  // of the tool: an older pose does not show where it is
   sweep_guard_core::PoseFollower follower_;
-  std::string frame_;  // of the newest command that was read, as X_WC_
+  bool tool_is_fresh_ = false;
+  Eigen::Isometry3d X_TP_ = Eigen::Isometry3d::Identity();  // newest one known
+  std::string frame_;                                       // of the newest command that was read, as X_WC_
   Eigen::Isometry3d X_WC_ = Eigen::Isometry3d::Identity();
 };
 

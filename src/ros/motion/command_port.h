@@ -35,18 +35,30 @@ class CommandPort {
   virtual void take(const Received& received) = 0;  ///< it is the newest command from now on
   virtual bool isPose() const { return false; }
 
+  /// When something is to be sent.
+  struct Cycle {
+    sweep_guard_core::Instant now;
+    sweep_guard_core::Duration since_sent;  ///< a pose moves on by what is possible in this time
+    sweep_guard_core::Duration period;      ///< longest period of the commands
+  };
+
   /// Reads the newest command. All but its timestamps and `period` is filled in.
-  /// @param period  since the pose sent last; a pose moves on by what is possible in this time
   /// @throws FrameError, sweep_guard_core::InvalidInput if it cannot be carried out
-  virtual sweep_guard_core::MotionCommand read(const std::optional<ToolPose>& tool,
-                                               sweep_guard_core::Duration period) = 0;
+  virtual sweep_guard_core::MotionCommand read(const sweep_guard_core::MotionInputs& known, const Cycle& cycle) = 0;
   /// Publishes what was let through of what read() returned; the message itself if that is everything.
-  virtual void send(const sweep_guard_core::Twist& let_through_W) = 0;
+  virtual void send(const sweep_guard_core::GuardedMotion& motion) = 0;
   /// Publishes that the tool shall stand still. A pose is published only if one was before.
-  virtual void sendZero() = 0;
+  virtual void sendZero(const std::optional<ToolPose>& tool, const Cycle& cycle) = 0;
   virtual void stop() = 0;  ///< no callback begins any more, and none is running
   virtual void pause() {}   ///< nothing is sent for a while
   virtual void rebase() {}  ///< see PoseFollower::rebase()
+
+  /// How far the pose sent last is ahead of a tool that does not follow it.
+  struct Lead {
+    double way;   ///< [m]
+    double turn;  ///< [rad]
+  };
+  virtual std::optional<Lead> standingLead() const { return {}; }  ///< empty: it follows, or no poses are sent
 
   virtual std::string commandTopic() const = 0;
   virtual std::uint32_t commandPublishers() const = 0;

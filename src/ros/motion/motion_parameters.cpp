@@ -105,6 +105,9 @@ MotionParameters loadMotionParameters(const ros::NodeHandle& private_node) {
   readTimes(read, parameters);
   readMotion(read, parameters);
   read.number("diagnostic_period", 1.0, {0.0, kInfinity});  // set by diagnostic_updater
+  parameters.follower.dead_time = parameters.options.dead_time;
+  parameters.follower.time_constant = parameters.options.time_constant;
+  parameters.follower.deceleration = parameters.options.deceleration;
   parameters.settings = read.settings();
   parameters.described = read.described();
   read.warnOfUnread();

@@ -1,5 +1,6 @@
 #include "ros/motion/motion_status.h"
 
+#include <cmath>
 #include <cstdio>
 #include <limits>
 
@@ -46,9 +47,22 @@ std::string textOf(const MotionStatus& status, Permission permission) {
   return (status.code == MotionStatus::HALT_FOR_COLLISION ? "stopped before " : "slowed before ") + nearestText(status);
 }
 
+// It is not the surfaces that limit the command.
+void sayThatItStands(const CommandPort::Lead& lead, MotionStatus& status) {
+  const bool waits = !(status.sent_speed > 0.0);
+  status.code = waits ? MotionStatus::HALT_FOR_COLLISION : MotionStatus::DECELERATE_FOR_COLLISION;
+  if (waits) status.scale = 0.0;
+  status.cause = "the tool does not follow";
+  char ahead[96];
+  std::snprintf(ahead, sizeof ahead, ": the pose sent waits %.1f mm and %.1f degrees ahead of it", 1e3 * lead.way,
+                lead.turn * 180.0 / M_PI);
+  status.text = status.cause + ahead;
+}
+
 }  // namespace
 
-MotionStatus statusOf(const GuardedMotion& motion, const sweep_guard::Proximity* planes) {
+MotionStatus statusOf(const GuardedMotion& motion, const sweep_guard::Proximity* planes,
+                      const std::optional<CommandPort::Lead>& lead) {
   MotionStatus status = emptyStatus();
   status.code = codeOf(motion);
   status.cause = sweep_guard_core::textOf(motion.decision.cause);
@@ -64,6 +78,7 @@ MotionStatus statusOf(const GuardedMotion& motion, const sweep_guard::Proximity*
     status.gap = motion.limiting->gap;
   }
   status.text = textOf(status, motion.decision.permission);
+  if (lead && motion.decision.permission != Permission::kStop) sayThatItStands(*lead, status);
   return status;
 }
 

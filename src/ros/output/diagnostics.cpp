@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <array>
+#include <cstdio>
 #include <fstream>
 
 #include "sweep_guard/common/quantile.h"
@@ -17,6 +19,14 @@ using sweep_guard_core::SweepStatistics;
 using sweep_guard_core::toSeconds;
 
 constexpr double kMaxClockDifference = 1.0;  // [s]
+constexpr double kWorthSaying = 0.001;       // [m]
+
+std::string roundingText(const sweep_guard_core::Workpiece& workpiece) {
+  std::array<char, 32> rounding;
+  std::snprintf(rounding.data(), rounding.size(), "%.1f mm", 1e3 * workpiece.mesh_M.rounding());
+  return "'" + workpiece.id + "' is known to " + rounding.data() +
+         " only, for float32 rounds its coordinates: send them in a frame near it";
+}
 
 double residentMegabytes() {
   std::ifstream statm("/proc/self/statm");
@@ -115,6 +125,8 @@ void Diagnostics::input(Status& status, const Input& input, Counts& previous) co
                    "nothing received on " + input.source);
   }
   if (record.refused > previous.refused) status.summary(DiagnosticStatus::ERROR, "refused: " + record.last_error);
+  const bool warned = !record.last_warning.empty() && record.warning_time > previous.time;
+  if (warned) status.mergeSummary(DiagnosticStatus::WARN, record.last_warning);
   previous = {record.received, record.refused, at.steady};
 
   status.add("source", input.source);
@@ -145,6 +157,8 @@ void Diagnostics::workpieces(Status& status) const {
     status.addf("'" + workpiece->id + "'", "revision %u, %zu triangles in '%s', %.3f s old", workpiece->revision,
                 workpiece->mesh_M.triangles().size(), workpiece->frame.c_str(),
                 toSeconds(sweep_guard_core::age(seen, at)));
+    if (workpiece->mesh_M.rounding() >= kWorthSaying)
+      status.mergeSummary(DiagnosticStatus::WARN, roundingText(*workpiece));
     if (workpiece->mesh_M.openEdges() == 0) continue;
     std::string open;
     sweep_guard_core::appendOpenSurface(workpiece->id, workpiece->mesh_M.openEdges(), open);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <boost/make_shared.hpp>
+#include <utility>
 
 #include "sweep_guard/ros/conversions.h"
 
@@ -23,6 +24,7 @@ sweep_guard::ObjectTouches touchesMsg(sweep_guard_core::ObjectTouches& object) {
     message.sweeps.push_back(touched.sweeps);
     message.depths.push_back(touched.depth);
   }
+  message.jump_triangles = std::move(object.jump_triangles);
   return message;
 }
 

@@ -61,12 +61,12 @@ sweep_guard_core::PredictorOptions readPredictor(ParameterReader& read) {
                                                  "Polynomials ignore samples that are older."));
   options.max_speed =
       read.live().number("limits/max_speed", options.max_speed, {0.001, 1000.0, "m/s"},
-                         "No prediction moves the tip faster, or a joint that slides. A faster pose is a jump: "
-                         "the motion is learned again.");
+                         "No prediction moves the tip faster, or a joint that slides. A faster pose is a jump (reason "
+                         "JUMP): the motion is learned again.");
   options.max_turn_rate =
       read.live().number("limits/max_turn_rate", options.max_turn_rate, {0.001, 1000.0, "rad/s"},
-                         "No prediction turns faster, of the tool or of a joint. A pose that does is a jump: the "
-                         "motion is learned again.");
+                         "No prediction turns faster, of the tool or of a joint. A pose that does is a jump (reason "
+                         "JUMP): the motion is learned again.");
   return options;
 }
 
@@ -276,8 +276,9 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
       "warning is UNKNOWN, reason NOT_COVERED. []: none.");
   parameters.allow_several_publishers =
       read.flag("allow_several_publishers", false,
-                "Allows several publishers on `tool_pose`. Otherwise the warning is UNKNOWN while there are several: "
-                "the tool would jump between their poses.");
+                "Allows several publishers on `tool_pose`, and of tf frames that place the tool or a workpiece. "
+                "Otherwise the warning is UNKNOWN while there are several: what they place would jump between their "
+                "poses.");
   parameters.max_triangles = static_cast<size_t>(
       read.integer("limits/max_triangles", 1000000, 1, 10000000, "A mesh with more triangles is refused."));
   const int max_message_size =

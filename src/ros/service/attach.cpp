@@ -34,7 +34,8 @@ Eigen::Isometry3d motionSince(const Workpiece& before, const Workpiece& newest) 
       !sweep_guard_core::sameTriangles(before.mesh_M, newest.mesh_M))
     throw InvalidInput("'" + before.id + "' was replaced meanwhile: ask again");
   const sweep_guard_core::RigidFit fit = sweep_guard_core::rigidFit(before.mesh_M, newest.mesh_M);
-  if (fit.deviation <= sweep_guard_core::WorkpieceStore::kRigid) return fit.X_MM;
+  const double rounding = before.mesh_M.rounding() + newest.mesh_M.rounding();
+  if (fit.deviation <= sweep_guard_core::WorkpieceStore::rigidWithin(rounding)) return fit.X_MM;
   throw InvalidInput("'" + before.id + "' has deformed by " + std::to_string(fit.deviation) +
                      " m meanwhile: the tool can carry what keeps its shape");
 }
@@ -43,8 +44,8 @@ Eigen::Isometry3d motionSince(const Workpiece& before, const Workpiece& newest) 
 Workpiece movedBy(const Eigen::Isometry3d& X_MM, const Workpiece& held, const PoseWithFrames& pose) {
   std::vector<Eigen::Vector3d> vertices_M;
   for (size_t i = 0; i < held.mesh_M.vertexCount(); ++i) vertices_M.push_back(X_MM * held.mesh_M.vertex(i));
-  return {held.id,       held.revision, pose.stamp,
-          pose.received, held.frame,    TriangleMesh(vertices_M, held.mesh_M.triangles())};
+  TriangleMesh moved_M(vertices_M, held.mesh_M.triangles(), held.mesh_M.surfaceKind(), held.mesh_M.rounding());
+  return {held.id, held.revision, pose.stamp, pose.received, held.frame, std::move(moved_M)};
 }
 
 }  // namespace

@@ -138,7 +138,8 @@ class TreeBuilder {
     const auto index = static_cast<size_t>(found - variables_.begin());
     if (found != variables_.end()) return index;
     const auto [lower, upper] = limitsOf(joint);
-    variables_.push_back({joint.name, lower, upper, joint.type == urdf::Joint::CONTINUOUS});
+    const double velocity = joint.limits ? joint.limits->velocity : 0.0;
+    variables_.push_back({joint.name, lower, upper, joint.type == urdf::Joint::CONTINUOUS, velocity});
     return index;
   }
 
@@ -194,7 +195,7 @@ size_t variableNamed(const KinematicTree& tree, const std::string& joint) {
 
 void checkLimits(const KinematicTree& tree, const std::vector<double>& positions, const std::string& where) {
   for (size_t i = 0; i < positions.size(); ++i) {
-    const auto& [name, lower, upper, continuous] = tree.variables()[i];
+    const auto& [name, lower, upper, continuous, velocity] = tree.variables()[i];
     if (positions[i] >= lower && positions[i] <= upper) continue;  // false for NaN
     throw InvalidInput(where + name + " is beyond the joint's limits, " + shown(lower, upper));
   }

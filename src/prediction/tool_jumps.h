@@ -1,0 +1,53 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sweep_guard/common/sample_buffer.h"
+#include "sweep_guard/prediction/jump.h"
+
+namespace sweep_guard_core {
+
+/// Where the tool and its joints are at one moment, as its sources say: before the motion between two such states is cut.
+struct ToolState {
+  Time stamp;
+  Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< finite, rotation orthonormal; not checked
+  std::vector<double> positions = {};                      ///< of each joint [rad or m], finite; not checked
+};
+
+/// Finds jumps of the tool in the fixed frame, and of its joints. One thread.
+class ToolJumps {
+ public:
+  struct Joint {
+    std::string name;
+    bool turns = true;      ///< its positions are angles; otherwise lengths
+    double velocity = 0.0;  ///< largest by the robot description [rad/s or m/s]; 0: it does not say
+  };
+
+  ToolJumps(std::string tool_frame, std::string fixed_frame, std::vector<Joint> joints)
+      : tool_frame_(std::move(tool_frame)), fixed_frame_(std::move(fixed_frame)), joints_(std::move(joints)) {}
+
+  /// Adds the newest state; stamps do not decrease.
+  /// @returns what jumped to it, in words: a joint goes before the tool; empty: nothing did
+  std::string add(const ToolState& state, const SpeedLimits& limits);
+
+  /// Returns which joint moved to the newest state at more than twice its velocity of the robot description; empty: none.
+  std::string faster() const;
+
+  void reset() { states_.clear(); }  ///< forgets all states
+
+ private:
+  template <typename MovedTo>
+  std::optional<JumpSpeed> jumpOf(const MovedTo& moved, const SpeedLimits& limits) const;
+  std::optional<JumpSpeed> jumpOfJoint(size_t joint, const SpeedLimits& limits) const;
+  std::optional<JumpSpeed> jumpOfTool(const SpeedLimits& limits) const;
+  void forgetOld();
+
+  const std::string tool_frame_;
+  const std::string fixed_frame_;
+  const std::vector<Joint> joints_;
+  SampleBuffer<ToolState> states_;  // the first is the newest one that is older by 20 ms, if there is one
+};
+
+}  // namespace sweep_guard_core

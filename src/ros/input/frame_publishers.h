@@ -1,0 +1,67 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "sweep_guard/common/sample_buffer.h"
+#include "sweep_guard/common/time.h"
+
+namespace sweep_guard_ros {
+
+/// Finds frames that several nodes publish by turns and place differently: whoever looks one up gets a mixture of both, at places
+/// where nothing is. Knows frames by the transforms to them that change; those that never change are no matter of turns.
+///
+/// Nodes that place a frame alike may share it, and one may take it over from another: node A has to publish, then node B, then A
+/// again within about 1 s, and both have to be apart by more than 1 mm or 1 mrad at one stamp.
+class FramePublishers {
+ public:
+  struct Transform {
+    sweep_guard_core::Time stamp;
+    std::string parent;
+    Eigen::Isometry3d X_PF = Eigen::Isometry3d::Identity();  ///< finite, rotation orthonormal; not checked
+  };
+  /// Two nodes that do not agree where a frame is.
+  struct Conflict {
+    std::string frame;
+    std::string text;                    ///< frame, nodes and by how much they differ, in words
+    sweep_guard_core::SteadyTime found;  ///< last
+  };
+
+  /// Adds a transform that was received. The thread of the listener.
+  void add(const std::string& frame, const std::string& node, const Transform& transform,
+           sweep_guard_core::SteadyTime received);
+
+  bool hasConflicts() const { return any_; }  ///< that conflicts() may return; any thread, without a lock
+  /// Returns the conflicts that were found within the last 1.5 s. Any thread.
+  std::vector<Conflict> conflicts(sweep_guard_core::SteadyTime now) const;
+
+ private:
+  using Samples = sweep_guard_core::SampleBuffer<Transform>;
+  struct Node {
+    std::string name;
+    Samples samples = {};
+    std::uint64_t number = 0;               // of its newest transform, among those of the frame
+    sweep_guard_core::SteadyTime received;  // its newest transform
+    sweep_guard_core::SteadyTime by_turns;  // when it published after another node that had published after it
+  };
+  struct Frame {
+    std::vector<Node> nodes;
+    std::uint64_t count = 0;  // of transforms
+  };
+
+  static Node& nodeOf(const std::string& name, sweep_guard_core::SteadyTime received, Frame& frame);
+  void compare(const std::string& frame, const Node& one, const Node& other, sweep_guard_core::SteadyTime received);
+  void found(Conflict conflict);
+
+  std::unordered_map<std::string, Frame> frames_;  // used by the listener only
+  mutable std::mutex mutex_;                       // of the next one
+  mutable std::map<std::string, Conflict> conflicts_;
+  mutable std::atomic<bool> any_ = false;
+};
+
+}  // namespace sweep_guard_ros
