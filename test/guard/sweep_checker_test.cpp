@@ -128,7 +128,7 @@ TEST(SweepResultTest, ReportsAMarginThatAddsUp) {
 }
 
 // A ball touches a triangle where it is; in float32 some triangles lie apart from it.
-TEST(SweepResultTest, MeetsTrianglesWhereTheyWereBeforeTheirSenderRoundedThemToFloat32) {
+TEST(SweepResultTest, MeetsTrianglesWhereTheyWereBeforeTheirSenderRoundedThem) {
   constexpr double kRadius = 0.005;
   Random random(11);
   for (const double distance : {0.3, 30e3, 130e3, 4000e3}) {

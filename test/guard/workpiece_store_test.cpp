@@ -76,7 +76,7 @@ TEST(WorkpieceStoreTest, RefusesWhatDoesNotFitAndKeepsTheSnapshot) {
 }
 
 // Too coarse for a contact: of northings in UTM, float32 keeps steps of 0.25 m.
-TEST(WorkpieceStoreTest, RefusesVerticesThatFloat32RoundsByMoreThanTenMillimeters) {
+TEST(WorkpieceStoreTest, RefusesVerticesThatAreRoundedByMoreThanTenMillimeters) {
   WorkpieceStore store;
   store.set(triangleAt(1), atSecond(9));
   const auto sentAt = [&](const Eigen::Vector3f& place) {

@@ -74,7 +74,7 @@ TEST_F(DiagnosticsTest, EachInputReportsTopicPublishersAndAge) {
   EXPECT_EQ(valueOf(workpieces, "'square'").find("revision 1, 2 triangles in 'world'"), 0U);
 }
 
-TEST_F(DiagnosticsTest, SayWhichWorkpieceHasCoordinatesThatFloat32MakesCoarse) {
+TEST_F(DiagnosticsTest, SayWhichWorkpieceHasCoordinatesThatAreRounded) {
   placeSquare("square", {0.0, 0.0, -1.0});
   probe().place(squareMovedTo("square", {0.0, 0.0, -1.0}, probe().time()));
   const auto coarse = [](const DiagnosticStatus& status) { return has(status.message, "for float32 rounds"); };
