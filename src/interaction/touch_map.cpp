@@ -17,7 +17,9 @@ void assignTriangles(const std::vector<TriangleContact>& contacts, TriangleSet& 
   for (const TriangleContact& contact : contacts) triangles.push_back(contact.triangle);
 }
 
+// A joint may have jumped in parts, the first of which are no jump of a body.
 bool jumps(const SweepReport& report, const std::string& frame) {
+  if (report.jumps.empty()) return !report.jump.empty();
   const auto same = [&](const FrameJump& jump) { return jump.frame == frame; };
   return std::any_of(report.jumps.begin(), report.jumps.end(), same);
 }

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <algorithm>
+#include <set>
+#include <string>
 
 #include "guard/fake_detector.h"
 #include "guard/guard_results.h"
@@ -85,8 +87,11 @@ TEST_F(FrameJumpsTest, PredictionIsRightAgainTwoPosesAfterAJump) {
     PoseWithFrames pose = poseAt(1.792 + 8e-5 * part, 0.099 + 1e-5 * part, 0.0);
     pose.X_WT.linear() = Eigen::AngleAxisd(0.026 * part, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     pose.jump = "joint 'wrist' jumped: 130 rad/s";
-    if (part < 100) guard_.pass(pose);
-    if (part == 100) EXPECT_EQ(reportOf(guard_, pose, workpieces_).jump, pose.jump);
+    if (part < 100) {
+      guard_.pass(pose);
+    } else {
+      EXPECT_EQ(reportOf(guard_, pose, workpieces_).jump, pose.jump);
+    }
   }
   PoseWithFrames next = poseAt(1.808, 0.101, 0.0);
   next.X_WT.linear() = Eigen::AngleAxisd(2.6, Eigen::Vector3d::UnitZ()).toRotationMatrix();

@@ -109,6 +109,10 @@ TEST_F(TouchMapTest, TouchesAlongAJumpAreKeptApart) {
   jump.jumps = {{"another frame", {12.0, false}}};
   add(jump);
   EXPECT_EQ(ofLiver().size(), 4U) << "the tool did not jump against this workpiece";
+  jump.jumps.clear();
+  jump.jump = "joint 'elbow' jumped: 130 rad/s";
+  add(jump);
+  EXPECT_EQ(ofLiver().at(3).sweeps, 1U) << "of a joint that jumped in parts";
   map_.clear();
   EXPECT_TRUE(touches().empty());
 }

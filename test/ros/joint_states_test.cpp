@@ -211,7 +211,7 @@ TEST_F(JointStatesTest, AJointThatJumpsIsNamedAndItsTouchesAreKeptApart) {
   holdUntil(jumped, isClearNow);
 
   jumped["shoulder"] += 0.3;
-  jointProbe().tick(0.1);
+  jointProbe().advance(0.1);
   publish(jumped);
   jointProbe().awaitStatus("tool pose", [](const GuardProbe::Status& status) {
     return status.message.find("joint 'shoulder' moved at 3 rad/s: the robot description says 1 rad/s") !=

@@ -81,7 +81,7 @@ bool differs(const Difference& difference) {
 
 std::string inWords(const Moved& apart) {
   char text[64];
-  std::snprintf(text, sizeof text, ", which are %.3g mm and %.3g mrad apart", 1e3 * apart.way, 1e3 * apart.turn);
+  std::snprintf(text, sizeof text, ", which are %.1f mm and %.1f mrad apart", 1e3 * apart.way, 1e3 * apart.turn);
   return text;
 }
 

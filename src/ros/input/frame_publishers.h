@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <atomic>
+#include <cstdint>
 #include <map>
 #include <mutex>
 #include <string>
