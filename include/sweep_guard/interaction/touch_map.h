@@ -30,7 +30,8 @@ struct ObjectTouches {
 ///
 /// A sweep touches the triangles for which the narrow phase finds an impact, also where contact is intended or allowed;
 /// without narrow phase, all that it does not rule out. It counts once, however many poses it passes and bodies the tool
-/// has. A sweep along a jump (`jumps` or `jump` of the report) is not counted: its triangles are kept apart. Depths are those at the swept poses: what a tool does on the way in and out within one sweep has depth 0.
+/// has. A sweep along a jump (`jumps` or `jump` of the report) is not counted: its triangles are kept apart. Depths are those at
+/// the swept poses: what a tool does on the way in and out within one sweep has depth 0.
 ///
 /// Deformations keep the counts. They begin anew when the triangles or the revision of a workpiece change, and after it
 /// was away. A triangle of a workpiece that was swept costs 12 bytes. Once a workpiece was swept and the buffers are as
