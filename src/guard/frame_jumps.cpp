@@ -29,7 +29,7 @@ std::optional<JumpSpeed> jumpTo(size_t i, const PoseHistory& history, const Spee
 std::optional<JumpSpeed> jumpAfter(std::uint64_t number, const PoseHistory& history, const SpeedLimits& limits) {
   std::optional<JumpSpeed> fastest;
   for (size_t i = history.size() - 1; i > 0 && history[i].number > number; --i) {
-    if (history[i].anew) continue;
+    if (history[i].anew || history[i - 1].anew) continue;  // no time passed since the pose before
     const auto jump = jumpTo(i, history, limits);
     if (jump && (!fastest || jump->speed > fastest->speed)) fastest = jump;
   }

@@ -175,7 +175,7 @@ void FrameMotionStore::expect(const std::string& beginning, const std::set<std::
   frames_.insert(frames.begin(), frames.end());
   FrameMotions left;
   for (const auto& [frame, motion] : *motions_) {
-    if (frames_.count(frame) != 0) left.emplace(frame, motion);
+    if (frames_.count(frame) != 0 || added_.count(frame) != 0) left.emplace(frame, motion);
   }
   motions_ = std::make_shared<const FrameMotions>(std::move(left));
 }

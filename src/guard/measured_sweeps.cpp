@@ -102,7 +102,7 @@ void MeasuredSweeps::join(const FrameMotions& frames) {
 }
 
 bool MeasuredSweeps::isPlaced(const std::string& frame, const PoseWithFrames& pose, const FrameMotions& frames) const {
-  return frames.count(frame) == 0 ? pose.X_WM.count(frame) != 0 : histories_.count(frame) != 0;
+  return (frames.count(frame) != 0 || pose.X_WM.count(frame) != 0) && histories_.count(frame) != 0;
 }
 
 void MeasuredSweeps::sweep(const SweepSetup& setup, const PoseWithFrames& pose, const BodyPose& body,

@@ -1,6 +1,7 @@
 #include "monitor/stand_ins.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "monitor/swept_workpieces.h"
 
@@ -13,11 +14,21 @@ void StandIns::update(const Workpieces& before, const Workpieces& newest, std::o
     if (next == newest.end() || (*next)->id != old->id || (*next)->frame != old->frame) {
       forget(old->id);
     } else if (&(*next)->mesh_M.triangles() != &old->mesh_M.triangles()) {
-      replaced_.push_back({old->id, old->mesh_M.sharedTriangles(), now.value_or((*next)->received)});
+      replace({old->id, old->mesh_M.sharedTriangles(), now.value_or((*next)->received)});
     }
   }
   const auto is_unused = [](const Replaced& one) { return one.triangles.expired(); };
   replaced_.erase(std::remove_if(replaced_.begin(), replaced_.end(), is_unused), replaced_.end());
+}
+
+// Triangles that come back and are replaced again count from then on.
+void StandIns::replace(Replaced old) {
+  const auto same = [&](const Replaced& one) {
+    return one.id == old.id && one.triangles.lock() == old.triangles.lock();
+  };
+  const auto known = std::find_if(replaced_.begin(), replaced_.end(), same);
+  if (known != replaced_.end()) replaced_.erase(known);
+  replaced_.push_back(std::move(old));
 }
 
 std::optional<SteadyTime> StandIns::until(const Workpieces& tested, const Workpiece& newest) const {

@@ -32,6 +32,7 @@ class StandIns {
     SteadyTime at;
   };
 
+  void replace(Replaced old);
   void forget(const std::string& id);
 
   std::vector<Replaced> replaced_;  // those that somebody still uses

@@ -49,7 +49,7 @@ void PoseLeash::observe(const Observation& seen, const Eigen::Isometry3d& sent_W
 }
 
 void PoseLeash::remember(const Eigen::Isometry3d& sent_WT) {
-  const double spacing = toSeconds(options_.dead_time + 2 * lag_) / kSamplesAWindow;
+  const double spacing = toSeconds(options_.dead_time + 2 * lag_ + seen_.period + seen_.age) / kSamplesAWindow;
   if (count_ > 0 && toSeconds(seen_.now - before(0).at) < spacing) return;
   ring_[next_] = {seen_.now, seen_.now - seen_.age, seen_.X_WT, sent_WT};
   next_ = (next_ + 1) % kSamples;

@@ -14,8 +14,8 @@ namespace {
 using sweep_guard::Warning;
 
 constexpr int kMessages = 60;
-constexpr int kPosesEach = 3;   // for each mesh
-constexpr double kRate = 90.0;  // of the poses [Hz]
+constexpr int kPosesEach = 3;       // for each mesh
+constexpr double kPoseRate = 90.0;  // of the poses [Hz]
 constexpr double kHeight = -1.0;
 
 // A flat grid of so many cells along each side, 0.2 m wide.
@@ -96,7 +96,7 @@ class ChangingTrianglesTest : public ::testing::Test {
   GuardProbe probe_{/*drives_clock=*/false};
   std::uint32_t revision_ = 0;
   int poses_ = 0;
-  ros::WallRate rate_{kRate};
+  ros::WallRate rate_{kPoseRate};
 };
 
 TEST_F(ChangingTrianglesTest, LeaveAToolThatRestsAboveClear) {

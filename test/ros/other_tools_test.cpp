@@ -46,7 +46,7 @@ class Peer {
     msg.sequence = ++sequence_;
     msg.predicted_from = stamp;
     auto& body = msg.bodies.emplace_back();
-    body.pose = toMsg(Eigen::Isometry3d(Eigen::Translation3d(place)));
+    body.pose = sweep_guard_ros::toMsg(Eigen::Isometry3d(Eigen::Translation3d(place)));
     for (int i = 0; i <= 24; ++i) {
       auto& pose = body.predicted.emplace_back();
       pose.from_now = ros::Duration(0.1 * i);

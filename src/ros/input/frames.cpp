@@ -64,10 +64,11 @@ void Frames::onTransforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& ev
       countFrames(transform);
       const std::string publisher = printable(event.getPublisherName());
       if (is_static && isHeldBack(transform, publisher)) continue;
-      if (!is_static) notePublisher(transform, event.getPublisherName());
       buffer_.setTransform(transform, publisher, is_static);
       tree_.add(withoutSlash(transform.header.frame_id), withoutSlash(transform.child_frame_id));
-      if (!is_static) moved(transform);
+      if (is_static || !tree_.isUsed(withoutSlash(transform.child_frame_id))) continue;
+      notePublisher(transform, event.getPublisherName());
+      moved();
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
@@ -127,6 +128,11 @@ std::uint64_t Frames::staticChanges() const {
   return static_changes_;
 }
 
+bool Frames::holdsBack() const {
+  const std::lock_guard lock(changes_mutex_);
+  return !held_back_.empty();
+}
+
 bool Frames::applyStaticChanges(sweep_guard_core::Duration older_than) {
   std::map<std::string, StaticChange> changes;
   {
@@ -148,13 +154,13 @@ void Frames::use(const std::string& user, const std::string& target, const std::
   tree_.use(user, withoutSlash(target), names);
 }
 
-void Frames::moved(const geometry_msgs::TransformStamped& transform) {
+void Frames::moved() {
   std::shared_ptr<Gate<>> on_move;
   {
     const std::lock_guard lock(moves_mutex_);
     on_move = on_move_;
   }
-  if (on_move && tree_.isUsed(withoutSlash(transform.child_frame_id))) on_move->pass();
+  if (on_move) on_move->pass();
 }
 
 std::shared_ptr<void> Frames::onMove(std::function<void()> callback) {

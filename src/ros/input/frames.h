@@ -88,6 +88,7 @@ class Frames {
 
   /// Returns how many static transforms that count have changed, held back or not.
   std::uint64_t staticChanges() const;
+  bool holdsBack() const;  ///< a change that counts
   /// Applies the changes that are held back.
   /// @param older_than  only if the first of them has waited for longer
   /// @returns whether there were any
@@ -97,7 +98,7 @@ class Frames {
   void onTransforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& event, bool is_static);
   void checkStamp(const ros::Time& stamp);
   void notePublisher(const geometry_msgs::TransformStamped& transform, const std::string& node);
-  void moved(const geometry_msgs::TransformStamped& transform);
+  void moved();
   bool isHeldBack(const geometry_msgs::TransformStamped& transform, const std::string& publisher);
   void countFrames(const geometry_msgs::TransformStamped& transform);
 

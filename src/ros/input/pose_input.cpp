@@ -210,6 +210,7 @@ void PoseInput::refuse(Reason reason, const std::string& message) {
 void PoseInput::begin() {
   const sweep_guard_core::WarningMonitor::Checkpoint checkpoint = monitor_.checkpoint();
   if (!checkpoint.continues(checkpoint_)) {
+    placeWaiting();  // what can be
     previous_stamp_.reset();
     waiting_poses_.clear();
     root_waits_since_.reset();
@@ -235,7 +236,7 @@ void PoseInput::accept(const ReceivedPose& pose) {
   }
   useToolFrame(pose.frame);
   const WaitingPose next{pose, checkpoint_};
-  if (waiting_poses_.empty() && place(next)) return;
+  if (waiting_poses_.empty() && place(next, pose.timestamps.received)) return;
   waiting_poses_.push_back(next);
   placeWaiting();
   if (waiting_poses_.size() <= kMaxWaitingPoses) return;
@@ -249,31 +250,32 @@ void PoseInput::placeWaiting() {
   while (more && !waiting_poses_.empty()) refuseWhatFails([&] { more = placeNext(); });
 }
 
-// In their order: those after a pose that waits for its transform wait, too. Returns false if the first still waits.
+// In their order: those after a pose that waits for its transform wait, too. Returns false if the first still waits. For the guard,
+// they are received with their transforms.
 bool PoseInput::placeNext() {
   const WaitingPose next = waiting_poses_.front();
   waiting_poses_.pop_front();
-  if (place(next)) return true;
+  if (place(next, std::chrono::steady_clock::now())) return true;
   waiting_poses_.push_front(next);
   return false;
 }
 
 // Returns false while its transform may still come.
-bool PoseInput::place(const WaitingPose& waiting) {
-  const auto& [stamp, received] = waiting.pose.timestamps;
-  const auto X_WF = place(waiting.pose.frame, stamp, received);
+bool PoseInput::place(const WaitingPose& waiting, sweep_guard_core::SteadyTime known) {
+  const sweep_guard_core::Time stamp = waiting.pose.timestamps.stamp;
+  const auto X_WF = place(waiting.pose.frame, stamp, waiting.pose.timestamps.received);
   if (!X_WF) return false;
   previous_stamp_ = stamp;
   tool_given_in_ = waiting.pose.frame;
   const Eigen::Isometry3d X_WT = *X_WF * waiting.pose.X_FT;
   if (!articulated_) {
-    ArticulatedTool::Pose known{stamp, X_WT, {}, {}};
-    known.jump = jumpTo(known);
-    push(received, std::move(known), waiting.checkpoint);
+    ArticulatedTool::Pose placed{stamp, X_WT, {}, {}};
+    placed.jump = jumpTo(placed);
+    push(known, std::move(placed), waiting.checkpoint);
     return true;
   }
   articulated_->add(stamp, X_WT);
-  pushKnownPoses(received, waiting.checkpoint);
+  pushKnownPoses(known, waiting.checkpoint);
   const std::string silence = articulated_->silence(stamp);
   if (!silence.empty()) monitor_.fault(sweep_guard_core::kPoseStale, silence);
   return true;
@@ -380,6 +382,10 @@ void PoseInput::push(sweep_guard_core::PoseWithFrames pose, const Checkpoint& ch
   monitor_.fault(sweep_guard_core::kPosesUnswept, "tool poses were dropped: too many wait to be swept");
 }
 
-void PoseInput::applyLateChanges() { moving_frames_.applyStaticChanges(live_.get()->limits.pose_timeout); }
+// In the thread that places poses: none is placed half before, half after a change.
+void PoseInput::applyLateChanges() {
+  if (!frames_.holdsBack()) return;
+  thread_.post([this] { moving_frames_.applyStaticChanges(live_.get()->limits.pose_timeout); });
+}
 
 }  // namespace sweep_guard_ros

@@ -83,7 +83,7 @@ class PoseInput {
   void begin();
   void placeWaiting();
   bool placeNext();
-  bool place(const WaitingPose& waiting);
+  bool place(const WaitingPose& waiting, sweep_guard_core::SteadyTime known);
   std::optional<Eigen::Isometry3d> place(const std::string& frame, sweep_guard_core::Time stamp,
                                          sweep_guard_core::SteadyTime received);
   std::optional<Eigen::Isometry3d> placeRoot(sweep_guard_core::Time stamp);

@@ -133,7 +133,7 @@ void CommandCycle::limitNewest(const Instant& at, bool only_if_changed) {
     command.timestamps = *command_;
     command.period = longestInForce();
     const sweep_guard_core::GuardedMotion motion = guard_.guard(known, command, at);
-    if (!only_if_changed || sent_W_ != motion.twist_W) port_->send(motion);
+    if (!only_if_changed || port_->isPose() || sent_W_ != motion.twist_W) port_->send(motion);
     sent_W_ = motion.twist_W;
     permission_ = motion.decision.permission;
     sources_.status.update(statusOf(motion, newest.planes.get(), port_->standingLead()));
@@ -157,7 +157,8 @@ bool CommandCycle::waitsForRelease(const sweep_guard_core::MotionInputs& known, 
 
 void CommandCycle::sendZero(const Instant& at) {
   guard_.stop(at.steady);
-  port_->sendZero(sources_.tool_pose.newest(), cycleAt(at));
+  GuardInput::Newest newest = sources_.guard.newest();
+  port_->sendZero(takeInputs(newest), cycleAt(at));
   sent_W_.reset();
   permission_ = Permission::kStop;
   sent_ = at.steady;

@@ -119,7 +119,7 @@ class TwistPort : public TypedPort<Msg> {
     this->publish(msg);
   }
 
-  void sendZero(const std::optional<CommandPort::ToolPose>& /*tool*/, const CommandPort::Cycle& /*cycle*/) override {
+  void sendZero(const MotionInputs& /*known*/, const CommandPort::Cycle& /*cycle*/) override {
     const auto msg = boost::make_shared<Msg>(this->newest());
     twistOf(*msg) = {};
     stampNow(*msg);
@@ -150,8 +150,7 @@ class PosePort : public TypedPort<geometry_msgs::PoseStamped> {
     X_WC_ = frames().poseOf(newest().header.frame_id, known.pose);
     frame_ = newest().header.frame_id;
     if (!follower_.begun()) follower_.begin(known.pose->X_WT * X_TP_);
-    observe(known.pose, cycle);
-    if (tool_is_fresh_ && passesASurface(known)) follower_.takeBack();
+    follow(known, cycle);
     MotionCommand command;
     command.point_T = X_TP_.translation();
     command.twist_W = follower_.towards(X_WC_ * command_CP, cycle.since_sent);
@@ -169,9 +168,9 @@ class PosePort : public TypedPort<geometry_msgs::PoseStamped> {
     publishSent(newest().header.stamp);
   }
 
-  void sendZero(const std::optional<ToolPose>& tool, const Cycle& cycle) override {
+  void sendZero(const MotionInputs& known, const Cycle& cycle) override {
     if (!follower_.begun()) return;
-    observe(tool, cycle);
+    follow(known, cycle);
     follower_.hold(tool_is_fresh_);
     followFrame();
     publishSent(ros::Time::now());
@@ -187,11 +186,13 @@ class PosePort : public TypedPort<geometry_msgs::PoseStamped> {
   }
 
  private:
-  void observe(const std::optional<ToolPose>& tool, const Cycle& cycle) {
+  void follow(const MotionInputs& known, const Cycle& cycle) {
+    const std::optional<ToolPose>& tool = known.pose;
     tool_is_fresh_ = tool && age(tool->timestamps, cycle.now) <= silence_;
     if (!tool) return;
     const Duration tool_age = std::max(Duration::zero(), age(tool->timestamps, cycle.now));
     follower_.observe({tool->X_WT * X_TP_, tool_age, cycle.period, cycle.now.steady});
+    if (tool_is_fresh_ && passesASurface(known)) follower_.takeBack();
   }
 
   bool passesASurface(const MotionInputs& known) const {

@@ -48,7 +48,7 @@ class CommandPort {
   /// Publishes what was let through of what read() returned; the message itself if that is everything.
   virtual void send(const sweep_guard_core::GuardedMotion& motion) = 0;
   /// Publishes that the tool shall stand still. A pose is published only if one was before.
-  virtual void sendZero(const std::optional<ToolPose>& tool, const Cycle& cycle) = 0;
+  virtual void sendZero(const sweep_guard_core::MotionInputs& known, const Cycle& cycle) = 0;
   virtual void stop() = 0;  ///< no callback begins any more, and none is running
   virtual void pause() {}   ///< nothing is sent for a while
   virtual void rebase() {}  ///< see PoseFollower::rebase()
