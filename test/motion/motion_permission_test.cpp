@@ -140,8 +140,8 @@ TEST_F(EscapeTest, NeedsPlanesThatAreYoungOnBothClocks) {
 TEST_F(EscapeTest, NeedsReasonsWithWhichThePlanesAreThoseOfAllSurfaces) {
   for (std::uint32_t reason = kNoPose; reason <= kJump; reason <<= 1U) {
     inputs_.warning->reasons = reason;
-    const bool incomplete = reason == kNoMesh || reason == kMeshInvalid || reason == kTfFail ||
-                            reason == kTimeJump || reason == kDetectorFault || reason == kNotSwept;
+    const bool incomplete = reason == kNoMesh || reason == kMeshInvalid || reason == kTfFail || reason == kTimeJump ||
+                            reason == kDetectorFault || reason == kNotSwept;
     expect(incomplete ? Permission::kStop : Permission::kEscape, PermissionCause::kUnknown);
   }
 }
