@@ -95,6 +95,8 @@ void SelectDetector::select(const SweptVolume& inflated_M) {
     names_ = gl_->hits({corners_, 1, clips_, canary});
     return;
   }
+  for (auto* triangles : {&in_blocks_, &names_})
+    triangles->reserve(corners_.capacity() / 9);  // both grow with the corners
   in_blocks_.clear();
   const auto count = static_cast<std::uint32_t>(corners_B_.size() / 3);
   const auto block = static_cast<std::uint32_t>(options_.triangles_per_name);
