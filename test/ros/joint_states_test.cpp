@@ -206,7 +206,7 @@ TEST_F(JointStatesTest, AJointThatJumpsIsNamedAndItsTouchesAreKeptApart) {
   EXPECT_NE(warning.reasons & Warning::JUMP, 0U);
   EXPECT_NE(warning.text.find("joint 'shoulder' jumped: 75 rad/s"), std::string::npos) << warning.text;
   const auto touches = listener.awaitNewest(
-      [](const sweep_guard::Touches& next) { return !next.objects.empty() && next.objects[0].id == "past"; });
+      [](const sweep_guard::Touches& next) { return !next.objects.empty() && next.objects[0].mesh_id == "past"; });
   EXPECT_FALSE(touches.objects[0].jump_triangles.empty());
   EXPECT_TRUE(touches.objects[0].triangles.empty());
   holdUntil(jumped, isClearNow);
