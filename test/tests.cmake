@@ -6,12 +6,6 @@ function(sweep_guard_label test)
   if(slow IN_LIST ARGN)
     set_tests_properties(${test} PROPERTIES COST 30)
   endif()
-  # Of six sixths that two processors have: what starts a master waits for half of the time.
-  if(ros IN_LIST ARGN)
-    set_tests_properties(${test} PROPERTIES PROCESSORS 2)
-  else()
-    set_tests_properties(${test} PROPERTIES PROCESSORS 3)
-  endif()
 endfunction()
 
 # The main program, and the headers that are precompiled for the tests.
