@@ -39,8 +39,8 @@ class MeasuredSweeps {
   void pass(const PoseWithFrames& pose, const BodyPose& body, const FrameMotions& frames = kNoFrameMotions);
 
   /// Sweeps through the poses passed since the last sweep to this pose. Against a workpiece in a frame that moves on its own,
-  /// up to the newest pose of that frame, if that is older. A workpiece that has other triangles is swept with the new ones, and
-  /// for the last time with those from before.
+  /// up to the newest measured pose of the frame, if that pose is older. A workpiece that has other triangles is swept with the
+  /// new triangles, and for the last time with the replaced ones.
   /// @param[out] report  overwritten; its buffers are used again
   void sweep(const SweepSetup& setup, const PoseWithFrames& pose, const BodyPose& body, const Workpieces& workpieces,
              SweepReport& report);
@@ -119,7 +119,7 @@ class MeasuredSweeps {
   std::map<std::string, Swept> swept_;            // by id
   std::map<std::string, Replaced> replaced_;      // by id
   std::uint64_t poses_ = 0;                       // and samples of joined motions
-  std::set<std::string> passed_over_;             // frames for which poses waited in vain since the last sweep
+  std::set<std::string> passed_over_;             // frames whose waiting poses were left out since the last sweep
   std::uint64_t swept_to_ = 0;                    // number of the pose of the last sweep
   std::optional<SteadyTime> waiting_since_;       // when the first pose passed since then was received
   Path path_M_;                                   // of the segment under test

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <deque>
 
+#include "connected_publisher.h"
 #include "node_fixture.h"
 #include "refusal.h"
 
@@ -180,13 +181,9 @@ TEST_F(LateTransformsTest, APoseWhoseFrameDoesNotComeIsRefused) {
 // Static transforms, of a fixture that holds a workpiece or of a camera that nobody uses.
 class StaticChangeTest : public LateTransformsTest {
  protected:
-  // A latched publisher keeps its last message only: what is sent before the guard is connected would be lost.
-  StaticChangeTest() {
-    while (static_.getNumSubscribers() == 0) ros::WallDuration(0.001).sleep();
-  }
   void place(const std::string& frame, double z) {
     auto transform = transformTo(frame, {}, {0.0, 0.0, z});
-    send(transform, static_);
+    send(transform, *static_);
   }
   // The guard knows the fixture, and the tool is above it.
   void begin(double fixture_z, const Eigen::Vector3d& tip) {
@@ -211,7 +208,7 @@ class StaticChangeTest : public LateTransformsTest {
     return contactCount(probe().awaitContactsUpTo(probe().time())) > 0;
   }
 
-  ros::Publisher static_ = ros::NodeHandle().advertise<tf2_msgs::TFMessage>("/tf_static", 10, /*latch=*/true);
+  ConnectedPublisher<tf2_msgs::TFMessage> static_{"/tf_static", /*latch=*/true};
 };
 
 TEST_F(StaticChangeTest, InFramesThatNobodyUsesChangeNothing) {

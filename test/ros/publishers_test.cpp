@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "connected_publisher.h"
 #include "node_fixture.h"
 
 namespace sweep_guard_ros {
@@ -12,8 +13,8 @@ namespace {
 using sweep_guard::Warning;
 
 ros::Publisher& otherRobot() {
-  static ros::Publisher publisher = ros::NodeHandle().advertise<tf2_msgs::TFMessage>("/other_robot/tf", 100);
-  return publisher;
+  static ConnectedPublisher<tf2_msgs::TFMessage> publisher("/other_robot/tf");
+  return *publisher;
 }
 
 Eigen::Isometry3d raisedBy(double z) { return Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, z)); }
@@ -22,12 +23,6 @@ bool hasSeveral(const Warning& warning) { return (warning.reasons & Warning::MUL
 
 class PublishersTest : public NodeTest {
  protected:
-  void SetUp() override {
-    NodeTest::SetUp();
-    for (int i = 0; i < 1000 && otherRobot().getNumSubscribers() == 0; ++i) ros::WallDuration(0.01).sleep();
-    ASSERT_GT(otherRobot().getNumSubscribers(), 0U);
-  }
-
   // The other robot publishes every third time.
   void step(const std::string& frame, double z, double other_z) {
     probe().tick(0.01);

@@ -34,7 +34,7 @@ class PoseLeash {
   /// What is known of the tool when a pose is to be sent.
   struct Observation {
     Eigen::Isometry3d X_WT;  ///< newest pose
-    Duration age;            ///< of that pose, >= 0
+    Duration age;            ///< of the tool pose, >= 0
     Duration period;         ///< longest time between two poses that are sent, > 0
     SteadyTime now;          ///< not before that of the last observation
   };
