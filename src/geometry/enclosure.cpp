@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "geometry/crossing.h"
+#include "geometry/crossing_parts.h"
 #include "geometry/edge_groups.h"
 #include "geometry/patches.h"
 #include "geometry/weld.h"
@@ -14,8 +15,9 @@ namespace sweep_guard_core {
 namespace {
 
 constexpr int kMaxRounds = 16;              // of leaving out what hangs on the rest of the surface
-constexpr std::uint32_t kMaxShells = 1000;  // closed patches among which cavities are looked for
+constexpr std::uint32_t kMaxShells = 1000;  // closed parts among which cavities and overlaps are looked for
 constexpr double kMaxTests = 2e6;           // triangles looked at from the corners of one cavity
+constexpr size_t kCornersOfMost = 15;       // by which a part lies in another that it does not cross
 constexpr size_t kMaxCaps = 1024;           // or a quarter of the triangles
 
 using Group = EdgeGroups::Group;
@@ -316,23 +318,60 @@ Triangle turnedIf(bool turn, const Triangle& triangle) {
   return turn ? Triangle{triangle[0], triangle[2], triangle[1]} : triangle;
 }
 
-// Finds closed parts that are cavities of others.
-class Cavities {
+// How closed parts lie to each other: which are cavities of others, and whether two of them overlap.
+class ClosedParts {
  public:
-  Cavities(const Surface& surface, const Parts& parts, const std::vector<Shell>& shells)
-      : surface_(surface), parts_(parts), shells_(shells), are_(shells.size()) {
+  ClosedParts(const Surface& surface, const Parts& parts, const std::vector<Shell>& shells)
+      : surface_(surface),
+        parts_(parts),
+        shells_(shells),
+        cavities_(shells.size()),
+        least_(4.0 * Enclosure::kWeld * diagonal(surface)) {
     for (std::uint32_t i = 0; i < shells.size(); ++i) {
       if (shells[i].closed) closed_.push_back(i);
     }
-    if (closed_.size() > kMaxShells || !areSentInBothDirections()) return;
+    overlap_ = closed_.size() > kMaxShells;
+    if (closed_.size() > kMaxShells || !anyBoxesMeet()) return;
     collectTriangles();
-    const double least = 4.0 * Enclosure::kWeld * diagonal(surface);
-    for (const std::uint32_t inner : closed_) are_[inner] = isCavity(inner, least);
+    const bool may_be_cavities = areSentInBothDirections();
+    for (const std::uint32_t inner : closed_) cavities_[inner] = may_be_cavities && isReversedAgainstOutermost(inner);
+    overlap_ = anyCrossOrLieInOthers();
   }
 
-  bool contain(std::uint32_t part) const { return are_[part]; }
+  bool isCavity(std::uint32_t part) const { return cavities_[part]; }
+  bool overlap() const { return overlap_; }
 
  private:
+  bool anyBoxesMeet() const {
+    for (size_t i = 1; i < closed_.size(); ++i) {
+      for (size_t k = 0; k < i; ++k) {
+        if (shells_[closed_[i]].box.intersects(shells_[closed_[k]].box)) return true;
+      }
+    }
+    return false;
+  }
+
+  // Of parts that do not cross, one lies in solids and cavities by turns.
+  bool anyCrossOrLieInOthers() const {
+    std::vector<PartTriangle> triangles;
+    for (const std::uint32_t part : closed_) {
+      const bool turn = shells_[part].isInsideOut() != cavities_[part];
+      for (const Triangle& triangle : triangles_[part]) triangles.push_back({turnedIf(turn, triangle), part});
+    }
+    const auto position = [this](std::uint32_t vertex) { return surface_.at(vertex); };
+    if (partsCross(triangles, position, least_).value_or(true)) return true;
+    return std::any_of(closed_.begin(), closed_.end(),
+                       [&](std::uint32_t inner) { return turnsAround(inner) != (cavities_[inner] ? 1 : 0); });
+  }
+
+  int turnsAround(std::uint32_t inner) const {
+    int turns = 0;
+    for (const std::uint32_t outer : closed_) {
+      if (outer != inner && enclosesMost(outer, inner)) turns += cavities_[outer] ? -1 : 1;
+    }
+    return turns;
+  }
+
   bool areSentInBothDirections() const {
     const auto is_sent = [&](bool inside_out) {
       return std::any_of(closed_.begin(), closed_.end(), [&](std::uint32_t i) {
@@ -351,31 +390,45 @@ class Cavities {
   }
 
   // The outermost part around it was sent in the other direction.
-  bool isCavity(std::uint32_t inner, double least) const {
+  bool isReversedAgainstOutermost(std::uint32_t inner) const {
     if (!shells_[inner].isSentInOneDirection()) return false;
     std::optional<std::uint32_t> outermost;
     for (const std::uint32_t outer : closed_) {
       const bool larger = !outermost || shells_[outer].box.volume() > shells_[*outermost].box.volume();
-      if (larger && encloses(outer, inner, least)) outermost = outer;
+      if (larger && encloses(outer, inner)) outermost = outer;
     }
     return outermost && shells_[*outermost].isSentInOneDirection() &&
            shells_[*outermost].isSentInsideOut() != shells_[inner].isSentInsideOut();
   }
 
   // Tests corners of the inner part: all, unless there are too many.
-  bool encloses(std::uint32_t outer, std::uint32_t inner, double least) const {
+  bool encloses(std::uint32_t outer, std::uint32_t inner) const {
     const Eigen::AlignedBox3d& box = shells_[inner].box;
-    const Eigen::Vector3d gap = Eigen::Vector3d::Constant(least);
+    const Eigen::Vector3d gap = Eigen::Vector3d::Constant(least_);
     if (!shells_[outer].box.contains(Eigen::AlignedBox3d(box.min() - gap, box.max() + gap))) return false;
     const double tests = 3.0 * static_cast<double>(triangles_[inner].size() * triangles_[outer].size());
     const auto stride = static_cast<size_t>(std::ceil(tests / kMaxTests));
     for (size_t i = 0; i < 3 * triangles_[inner].size(); i += stride) {
-      if (!encloses(outer, surface_.at(triangles_[inner][i / 3][i % 3]))) return false;
+      if (!enclosesPoint(outer, cornerOf(inner, i))) return false;
     }
     return true;
   }
 
-  bool encloses(std::uint32_t outer, const Eigen::Vector3d& p) const {
+  // Of parts that do not cross: where they touch, any corner may be outside.
+  bool enclosesMost(std::uint32_t outer, std::uint32_t inner) const {
+    const Eigen::Vector3d gap = Eigen::Vector3d::Constant(least_);
+    const Eigen::AlignedBox3d& box = shells_[outer].box;
+    if (!Eigen::AlignedBox3d(box.min() - gap, box.max() + gap).contains(shells_[inner].box)) return false;
+    const size_t stride = std::max<size_t>(1, 3 * triangles_[inner].size() / kCornersOfMost);
+    int more = 0;
+    for (size_t i = 0; i < 3 * triangles_[inner].size(); i += stride)
+      more += enclosesPoint(outer, cornerOf(inner, i)) ? 1 : -1;
+    return more > 0;
+  }
+
+  Eigen::Vector3d cornerOf(std::uint32_t part, size_t i) const { return surface_.at(triangles_[part][i / 3][i % 3]); }
+
+  bool enclosesPoint(std::uint32_t outer, const Eigen::Vector3d& p) const {
     const auto corner = [&](std::uint32_t vertex) -> Eigen::Vector3d { return surface_.at(vertex) - p; };
     const Triangle* const first = triangles_[outer].data();
     return View(corner).crossings(first, first + triangles_[outer].size()) != 0;
@@ -386,7 +439,9 @@ class Cavities {
   const std::vector<Shell>& shells_;
   std::vector<std::uint32_t> closed_;
   std::vector<std::vector<Triangle>> triangles_;  // of each closed part, in the direction of the part
-  std::vector<bool> are_;
+  std::vector<bool> cavities_;
+  double least_;  // distance that counts [m]
+  bool overlap_ = false;
 };
 
 // Appends the open parts, each followed by the fan from a corner of its border over all others.
@@ -427,7 +482,8 @@ Enclosure::Enclosure(const std::vector<float>& positions, const std::vector<Tria
   const Parts parts(surface, patches);
   const Borders borders = bordersOf(parts);
   const std::vector<Shell> shells = shellsOf(surface, parts, borders);
-  const Cavities cavities(surface, parts, shells);
+  const ClosedParts closed_parts(surface, parts, shells);
+  parts_overlap_ = closed_parts.overlap();
   size_t closed = 0;
   for (const Shell& shell : shells) closed += shell.closed ? shell.count : 0;
   closed_.reserve(closed);
@@ -435,7 +491,7 @@ Enclosure::Enclosure(const std::vector<float>& positions, const std::vector<Tria
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     if (surface.left_out[i]) continue;
     const Shell& shell = shells[parts.of(i)];
-    const bool turn = parts.turned(i) != (shell.isInsideOut() != cavities.contain(parts.of(i)));
+    const bool turn = parts.turned(i) != (shell.isInsideOut() != closed_parts.isCavity(parts.of(i)));
     roles_[i] = !shell.closed ? Role::kOpen : turn ? Role::kReversed : Role::kOutward;
     if (shell.closed) closed_.push_back(turnedIf(turn, surface.triangles[i]));
   }

@@ -122,6 +122,7 @@ ObjectInteraction InteractionFinder::interact(const std::shared_ptr<const Workpi
       sum.wrench += interactionForce(found, X_TB.linear() * motion.velocity_B(body, found_B.centroid_T), law);
     }
   }
+  sum.counted_twice = sum.enclosed && workpiece->mesh_M.enclosure().partsOverlap();
   if (sum.volume > 0.0) sum.centroid_T = moment_T / sum.volume;
   return sum;
 }

@@ -83,6 +83,68 @@ TEST(EnclosureTest, OfAShellReversedWithinAnotherIsACavity) {
   EXPECT_NEAR(signedVolume(solid.mesh()), 1.0 + 0.125, 1e-6);
 }
 
+SentSurface bar(double length_x, double length_y, double length_z) {
+  return cubeSurface(0.5).moved(Eigen::Affine3d(Eigen::Scaling(length_x, length_y, length_z)));
+}
+
+TEST(EnclosureTest, SaysWhereClosedPartsOverlap) {
+  SentSurface corner_in_face = cubeSurface(0.5, 3);
+  corner_in_face.add(cubeSurface(0.25, 2).movedBy(0.6, 0.1, 0.0));
+  SentSurface crossing_bars = bar(1.0, 0.1, 0.1);  // no corner of one lies in the other
+  crossing_bars.add(bar(0.07, 1.0, 0.07));
+  SentSurface crossing_flush = bar(1.0, 0.1, 0.1);
+  crossing_flush.add(bar(0.1, 1.0, 0.1));
+  SentSurface nested = cubeSurface(0.5, 3);
+  nested.add(cubeSurface(0.25, 2));
+  SentSurface of_three = cubeSurface(0.5).movedBy(-5.0, 0.0, 0.0);
+  of_three.add(corner_in_face);
+  SentSurface flush_inside = cubeSurface(0.5);
+  flush_inside.add(cubeSurface(0.1).movedBy(-0.25, 0.2, -0.4));
+  for (const SentSurface& surface : {corner_in_face, crossing_bars, crossing_flush, nested, of_three, flush_inside}) {
+    EXPECT_TRUE(surface.mesh().enclosure().partsOverlap());
+    EXPECT_TRUE(surface.separate().mesh().enclosure().partsOverlap());
+    EXPECT_TRUE(surface.reversed().mesh().enclosure().partsOverlap());
+  }
+}
+
+TEST(EnclosureTest, ClosedPartsThatOnlyTouchOrLieInCavitiesDoNotOverlap) {
+  SentSurface hollow = cubeSurface(0.5, 3);
+  hollow.add(cubeSurface(0.25, 2).reversed());
+  SentSurface island = hollow;
+  island.add(cubeSurface(0.1));
+  SentSurface on_a_table = bar(2.0, 2.0, 0.1);
+  on_a_table.add(cubeSurface(0.2, 2).movedBy(0.1, 0.2, 0.25));
+  SentSurface apart = cubeSurface(0.5, 3);
+  apart.add(cubeSurface(0.25, 2).movedBy(0.76, 0.0, 0.0));
+  SentSurface around_a_bar = bar(3.0, 0.1, 0.1);  // in its box, and beside it
+  around_a_bar.add(cubeSurface(0.2).movedBy(0.0, 0.3, 0.0));
+  SentSurface side_by_side = cubeSurface(0.5, 2);
+  side_by_side.add(cubeSurface(0.5, 2).movedBy(1.0, 0.0, 0.0));
+  for (const SentSurface& surface :
+       {cubeSurface(0.5, 3), hollow, island, on_a_table, apart, around_a_bar, side_by_side, plate(1.0)}) {
+    EXPECT_FALSE(surface.mesh().enclosure().partsOverlap());
+    EXPECT_FALSE(surface.separate().mesh().enclosure().partsOverlap());
+  }
+}
+
+// 120 000 triangles of two shells that are 1 cm apart, and small parts that one of them has around it.
+TEST(EnclosureTest, LargeClosedPartsThatDoNotOverlapAreKnownNotTo) {
+  SentSurface surface = cubeSurface(0.5, 100);
+  surface.add(cubeSurface(0.49, 100).reversed());
+  for (int i = 0; i < 100; ++i)
+    surface.add(cubeSurface(0.01).movedBy(0.04 * (i % 10) - 0.2, 0.04 * (i / 10) - 0.2, 0.0));
+  EXPECT_FALSE(surface.mesh().enclosure().partsOverlap());
+  surface.add(cubeSurface(0.01).movedBy(0.5, 0.1, 0.2));
+  EXPECT_TRUE(surface.mesh().enclosure().partsOverlap());
+}
+
+TEST(EnclosureTest, MoreClosedPartsThanAreLookedAtMayOverlap) {
+  SentSurface heap;
+  for (int i = 0; i < 1001; ++i) heap.add(cubeSurface(0.1).movedBy(i, 0.0, 0.0));
+  EXPECT_TRUE(heap.mesh().enclosure().partsOverlap());
+  EXPECT_EQ(closedCount(heap), 12U * 1001U);
+}
+
 TEST(EnclosureTest, OfAReversedSolidThatIsNotWithinTheOtherIsASolid) {
   for (const double x : {0.4, 0.7, 3.0}) {
     SentSurface two = cubeSurface(0.5, 3);

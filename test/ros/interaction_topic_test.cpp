@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "cube.h"
 #include "node_fixture.h"
 #include "proximity_listener.h"
 
@@ -48,6 +49,23 @@ TEST_F(InteractionTopicTest, IsTheForceOfASquareOnTheTip) {
   EXPECT_NEAR(object.wrench.force.x, 0.0, 1e-5);
   EXPECT_NEAR(object.wrench.torque.x, 0.0, 1e-6);
   EXPECT_EQ(interaction.wrench.force.z, object.wrench.force.z);
+}
+
+TEST_F(InteractionTopicTest, InPartsThatOverlapTheForceIsNotValidAndDiagnosticsSaysWhy) {
+  auto cubes = cubeAt("cubes", {0.0, 0.0, -0.1}, probe().time(), 0.1);
+  const auto other = cubeAt("cubes", {0.05, 0.0, -0.1}, probe().time(), 0.08);
+  for (const auto& triangle : other.mesh.triangles) {
+    cubes.mesh.triangles.push_back(triangle);
+    for (std::uint32_t& corner : cubes.mesh.triangles.back().vertex_indices) corner += 8;
+  }
+  cubes.mesh.vertices.insert(cubes.mesh.vertices.end(), other.mesh.vertices.begin(), other.mesh.vertices.end());
+  placed_.insert("cubes");
+  probe().place(cubes);
+  EXPECT_FALSE(forceAt({0.0, 0.0, -0.01}).valid);
+  EXPECT_TRUE(forceAt({0.0, 0.0, 0.1}).valid) << "the tool is not in it";
+  const auto status =
+      probe().awaitStatus("workpieces", [](const auto& next) { return !valueOf(next, "force of 'cubes'").empty(); });
+  EXPECT_NE(valueOf(status, "force of 'cubes'").find("overlap"), std::string::npos);
 }
 
 TEST_F(InteractionTopicTest, BeforeTheSurfaceThereIsNoForce) {

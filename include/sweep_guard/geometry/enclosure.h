@@ -45,6 +45,9 @@ class Enclosure {
   Role role(size_t i) const { return roles_.empty() ? Role::kOpen : roles_[i]; }
   /// Returns the number of edges at the borders of open parts. 0: the surface is closed, but for what is left out.
   size_t openEdges() const { return open_edges_; }
+  /// Returns whether closed parts overlap: what they have in common is enclosed twice. Those that only touch do not. Also true
+  /// of more than 1 000 closed parts, and where too many triangles of several parts are close to each other: it is not known.
+  bool partsOverlap() const { return parts_overlap_; }
 
  private:
   std::vector<Triangle> closed_;
@@ -52,6 +55,7 @@ class Enclosure {
   std::vector<OpenPart> open_parts_;
   std::vector<Role> roles_;
   size_t open_edges_ = 0;
+  bool parts_overlap_ = false;
 };
 
 }  // namespace sweep_guard_core

@@ -45,6 +45,7 @@ struct InteractionOptions {
 struct ObjectInteraction {
   std::shared_ptr<const Workpiece> workpiece;
   bool enclosed = false;                                 ///< as of Interpenetration
+  bool counted_twice = false;                            ///< volume may be: closed parts of the surface overlap
   double volume = 0.0;                                   ///< [m^3]
   Eigen::Vector3d centroid_T = Eigen::Vector3d::Zero();  ///< of the volume [m]
   Eigen::Vector3d area_T = Eigen::Vector3d::Zero();      ///< as of Interpenetration [m^2]

@@ -2,6 +2,7 @@
 
 #include <sweep_guard/Interaction.h>
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
 
 #include "common/stage_clock.h"
@@ -57,7 +58,9 @@ void InteractionPublisher::swept(const sweep_guard_core::PoseWithFrames& pose,
   message->header.stamp = toMsg(pose.stamp);
   message->header.frame_id = parameters->tool_frame;
   message->valid_until = toMsg(pose.stamp + parameters->limits.pose_timeout);
-  message->valid = static_cast<std::uint8_t>(known_surfaces_.complete(report, interaction_.unplaced));
+  const bool counted_twice = std::any_of(interaction_.objects.begin(), interaction_.objects.end(),
+                                         [](const auto& object) { return object.counted_twice; });
+  message->valid = static_cast<std::uint8_t>(known_surfaces_.complete(report, interaction_.unplaced) && !counted_twice);
   message->wrench = wrenchMsg(interaction_.total);
   for (const auto& object : interaction_.objects) message->objects.push_back(interactionMsg(object));
   publisher_.publish(message);

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "sweep_guard/geometry/mesh_order.h"
+
+namespace sweep_guard_core {
+
+/// A triangle of one of the parts of a surface.
+struct PartTriangle {
+  Triangle corners;
+  std::uint32_t part;
+};
+
+/// Returns whether two parts go through each other: an edge of one passes through a triangle of the other, also when the solid
+/// that has the edge is smaller by `least`. Solids that only touch do not. Empty: there are too many triangles close to those of
+/// other parts to tell.
+///
+/// Halves the box around all triangles until only one part is left in it, or few triangles.
+/// @param triangles  those of a part one after the other, counter-clockwise seen from where the solid is not
+/// @param position   of a vertex [m]
+/// @param least      [m], > 0
+std::optional<bool> partsCross(const std::vector<PartTriangle>& triangles,
+                               const std::function<Eigen::Vector3d(std::uint32_t vertex)>& position, double least);
+
+}  // namespace sweep_guard_core
