@@ -18,7 +18,7 @@ namespace sweep_guard_ros {
 namespace {
 
 constexpr size_t kWarmUp = 1000;  // poses
-constexpr size_t kCounted = 1000;
+constexpr size_t kCounted = 500;
 const std::set<std::string> kThreads = {"guard", "poses", "meshes", "converting", "storing", "warnings"};
 
 const std::vector<AllowedAllocation> kAllowed = {

@@ -256,12 +256,10 @@ TEST_F(ReplayTest, ABagThatCannotBeGuardedEndsItWithALineThatSaysWhy) {
 
 TEST_F(ReplayTest, ARateThatIsNoneEndsItWithALineThatNamesIt) {
   writeBag({writeMesh, writePoses});
-  for (const char* const rate : {"0", "-1"}) {
-    const std::string printed = replay(std::string("rate:=") + rate);
-    EXPECT_TRUE(has(printed, "rate")) << printed;
-    EXPECT_TRUE(has(printed, "0.001")) << printed;
-    EXPECT_FALSE(fs::exists(folder_ / "report/contacts.csv"));
-  }
+  const std::string printed = replay("rate:=0");
+  EXPECT_TRUE(has(printed, "rate")) << printed;
+  EXPECT_TRUE(has(printed, "0.001")) << printed;
+  EXPECT_FALSE(fs::exists(folder_ / "report/contacts.csv"));
 }
 
 // If roslaunch had to kill it, the log would say so.
