@@ -9,10 +9,16 @@ Moved movedInFrame(const PoseSample& from, const PoseSample& to) {
   return movedBetween(from.X_WM.inverse() * from.X_WT, to.X_WM.inverse() * to.X_WT);
 }
 
+// A way that is swept once more, where something was placed anew, takes no time.
+bool isRepeated(const PoseHistory& history, size_t i) {
+  while (i > 0 && !history[i].anew && history[i - 1].stamp == history[i].stamp) --i;
+  return history[i].anew;
+}
+
 // Returns the newest pose that is older than pose `i` by 20 ms; if there is none, the first that the tool has moved from.
 size_t longBefore(const PoseHistory& history, size_t i) {
   size_t before = i - 1;
-  while (before > 0 && !history[before].anew && history[i].stamp - history[before].stamp < kJumpTime) --before;
+  while (before > 0 && history[i].stamp - history[before].stamp < kJumpTime && !isRepeated(history, before)) --before;
   return before;
 }
 
@@ -29,7 +35,7 @@ std::optional<JumpSpeed> jumpTo(size_t i, const PoseHistory& history, const Spee
 std::optional<JumpSpeed> jumpAfter(std::uint64_t number, const PoseHistory& history, const SpeedLimits& limits) {
   std::optional<JumpSpeed> fastest;
   for (size_t i = history.size() - 1; i > 0 && history[i].number > number; --i) {
-    if (history[i].anew || history[i - 1].anew) continue;  // no time passed since the pose before
+    if (isRepeated(history, i)) continue;
     const auto jump = jumpTo(i, history, limits);
     if (jump && (!fastest || jump->speed > fastest->speed)) fastest = jump;
   }

@@ -11,6 +11,7 @@ namespace sweep_guard_core {
 namespace {
 
 constexpr Duration kMaxBeyond = std::chrono::milliseconds(250);
+constexpr Duration kGoesOn = std::chrono::seconds(2);              // a frame that nobody predicts; then it rests
 constexpr Duration kVelocityTime = std::chrono::milliseconds(20);  // stamps that are nearer make noise of rounding
 constexpr Duration kKept = std::chrono::milliseconds(100);         // of what velocity() needs
 constexpr size_t kMaxKept = 8192;                                  // as SampleBuffer
@@ -69,10 +70,30 @@ FrameKnot beyond(const FrameMotion& motion, const std::vector<FrameKnot>& knots,
   return knot;
 }
 
+// Where the frame was placed anew too shortly before, it goes on as before, turned with it.
+Vector6d velocityAt(size_t newest, const std::vector<FramePose>& measured) {
+  const FramePose& to = measured[newest];
+  size_t from = newest;
+  while (from > 0 && !measured[from].anew && to.stamp - measured[from].stamp < kVelocityTime) --from;
+  const FramePose& begin = measured[from];
+  const Duration span = to.stamp - begin.stamp;
+  Vector6d velocity = Vector6d::Zero();
+  if (begin.anew && from > 0 && span < kVelocityTime) {
+    const Eigen::Matrix3d turned = begin.X_WM.linear() * measured[from - 1].X_WM.linear().transpose();
+    const Vector6d before = velocityAt(from - 1, measured);
+    velocity << turned * before.head<3>(), turned * before.tail<3>();
+  } else if (span > Duration::zero()) {
+    const Eigen::AngleAxisd turn(to.X_WM.linear() * begin.X_WM.linear().transpose());
+    velocity << (to.X_WM.translation() - begin.X_WM.translation()) / toSeconds(span),
+        turn.angle() / toSeconds(span) * turn.axis();
+  }
+  return velocity;
+}
+
 // A frame that nobody predicts. Its error is that of a speed that is unknown by as much as it is.
 FrameKnot wentOn(const FrameMotion& motion, Time time) {
   const FramePose& newest = motion.measured.back();
-  const double seconds = toSeconds(time - newest.stamp);
+  const double seconds = toSeconds(std::min(time - newest.stamp, kGoesOn));
   const Vector6d way = seconds * motion.velocity();
   FrameKnot knot{time, newest.X_WM, Matrix6d::Zero(), 0.0};
   const Eigen::Vector3d turn = way.tail<3>();
@@ -113,6 +134,13 @@ double deviationBound(const std::vector<FrameKnot>& knots, double radius) {
   return deviation + mergedMotion(path, 0, path.size() - 1, radius).deviation_bound;
 }
 
+bool isEarlier(const FramePose& pose, Time time) { return pose.stamp < time; }
+
+void insert(const FramePose& pose, std::vector<FramePose>& measured) {
+  const auto place = std::lower_bound(measured.begin(), measured.end(), pose.stamp, isEarlier);
+  if (place == measured.end() || place->stamp != pose.stamp) measured.insert(place, pose);
+}
+
 // Poses that other ones replace for every later pose of the tool.
 void forgetBefore(Time pose, std::vector<FramePose>& measured) {
   const Time from = std::min(pose, measured.back().stamp - kKept);
@@ -121,6 +149,15 @@ void forgetBefore(Time pose, std::vector<FramePose>& measured) {
   const auto kept =
       std::min<std::ptrdiff_t>(needed - measured.begin() - 1, static_cast<std::ptrdiff_t>(measured.size()) - 2);
   if (kept > 0) measured.erase(measured.begin(), measured.begin() + kept);
+}
+
+// The frame goes straight past them.
+void passOver(size_t count, std::vector<FramePose>& measured) {
+  if (count == 0) return;
+  const auto end = measured.begin() + 1 + static_cast<std::ptrdiff_t>(count);
+  end->left_out = true;
+  end->anew = std::any_of(measured.begin() + 1, end + 1, [](const FramePose& pose) { return pose.anew; });
+  measured.erase(measured.begin() + 1, end);
 }
 
 bool beginsWith(const std::string& name, const std::string& beginning) {
@@ -135,17 +172,7 @@ std::optional<PredictedPose> FrameMotion::at(Time time) const {
   return PredictedPose{knot->time - predicted_from, knot->X_WM, knot->covariance};
 }
 
-Vector6d FrameMotion::velocity() const {
-  const FramePose& to = measured.back();
-  auto from = measured.rbegin();
-  while (!from->anew && std::next(from) != measured.rend() && to.stamp - from->stamp < kVelocityTime) ++from;
-  const double seconds = toSeconds(to.stamp - from->stamp);
-  if (!(seconds > 0.0)) return Vector6d::Zero();
-  const Eigen::AngleAxisd turn(to.X_WM.linear() * from->X_WM.linear().transpose());
-  Vector6d velocity;
-  velocity << (to.X_WM.translation() - from->X_WM.translation()) / seconds, turn.angle() / seconds * turn.axis();
-  return velocity;
-}
+Vector6d FrameMotion::velocity() const { return velocityAt(measured.size() - 1, measured); }
 
 std::optional<FramePath> framePath(const FrameMotion& motion, Time begin, const PredictedPath& path, double radius) {
   const std::vector<FrameKnot> knots = knotsOf(motion, radius);
@@ -189,39 +216,63 @@ void FrameMotionStore::set(const FrameMotions& motions) {
   motions_ = std::make_shared<const FrameMotions>(std::move(next));
 }
 
-bool FrameMotionStore::add(const std::string& frame, const FramePose& pose) {
+void FrameMotionStore::add(const std::string& frame, const std::vector<FramePose>& poses) {
+  if (poses.empty()) return;
   const std::lock_guard lock(mutex_);
-  FrameMotions next = *motions_;
-  FrameMotion motion;
-  if (const auto known = next.find(frame); known != next.end()) motion = *known->second;
-  motion.goes_on = true;
+  FrameMotion motion = motionOf(frame);
+  for (const FramePose& pose : poses) insert(pose, motion.measured);
+  const auto needed_from = needed_from_.find(frame);
+  if (needed_from != needed_from_.end()) sweep_guard_core::forgetBefore(needed_from->second, motion.measured);
+  passOver(std::max(motion.measured.size(), kMaxKept) - kMaxKept, motion.measured);
+  replace(frame, std::move(motion));
+}
+
+void FrameMotionStore::placeAnew(const std::string& frame, std::vector<FramePose> placed) {
+  const std::lock_guard lock(mutex_);
+  FrameMotion motion = motionOf(frame);
   auto& measured = motion.measured;
-  const auto is_after = [](Time time, const FramePose& one) { return time < one.stamp; };
-  const auto place = std::upper_bound(measured.begin(), measured.end(), pose.stamp, is_after);
-  if (place != measured.begin() && std::prev(place)->stamp == pose.stamp) return true;
-  measured.insert(place, pose);
-  sweep_guard_core::forgetBefore(needed_from_, measured);
-  const bool full = measured.size() > kMaxKept;
-  if (full) measured.erase(measured.begin() + 1);
+  const Time last = placed.front().stamp - Duration(1);  // that it is in its old place
+  const auto before = measured.empty() ? std::nullopt : motion.at(last);
+  measured.erase(std::lower_bound(measured.begin(), measured.end(), last, isEarlier), measured.end());
+  if (before) measured.push_back({last, before->X_WT});
+  placed.front().anew = before.has_value();
+  measured.insert(measured.end(), placed.begin(), placed.end());
+  replace(frame, std::move(motion));
+}
+
+FrameMotion FrameMotionStore::motionOf(const std::string& frame) const {
+  const auto known = motions_->find(frame);
+  FrameMotion motion;
+  if (known != motions_->end()) motion = *known->second;
+  motion.goes_on = true;
+  return motion;
+}
+
+void FrameMotionStore::replace(const std::string& frame, FrameMotion motion) {
+  FrameMotions next = *motions_;
   next[frame] = std::make_shared<const FrameMotion>(std::move(motion));
   motions_ = std::make_shared<const FrameMotions>(std::move(next));
   added_.insert(frame);
-  return !full;
 }
 
 void FrameMotionStore::keepOnly(const std::set<std::string>& frames) {
   const std::lock_guard lock(mutex_);
   FrameMotions left = *motions_;
   for (auto frame = added_.begin(); frame != added_.end();) {
-    if (frames.count(*frame) == 0) left.erase(*frame);
+    if (frames.count(*frame) == 0) {
+      left.erase(*frame);
+      needed_from_.erase(*frame);
+    }
     frame = frames.count(*frame) == 0 ? added_.erase(frame) : std::next(frame);
   }
   if (left.size() != motions_->size()) motions_ = std::make_shared<const FrameMotions>(std::move(left));
 }
 
-void FrameMotionStore::forgetBefore(Time pose) {
+void FrameMotionStore::forgetBefore(Time pose, const FrameMotions& known) {
   const std::lock_guard lock(mutex_);
-  needed_from_ = pose;
+  for (const auto& [frame, motion] : known) {
+    if (added_.count(frame) != 0) needed_from_[frame] = std::min(pose, motion->measured.back().stamp);
+  }
 }
 
 std::shared_ptr<const FrameMotions> FrameMotionStore::get() const {

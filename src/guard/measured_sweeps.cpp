@@ -74,21 +74,20 @@ void leaveOut(const SweepSetup& setup, bool has_new_poses, SweepCache& cache, Sw
 
 void MeasuredSweeps::pass(const PoseWithFrames& pose, const BodyPose& body, const FrameMotions& frames) {
   add(pose, body, frames);
-  if (!waiting_since_) waiting_since_ = pose.received;
+  if (!waiting_since_ && !pose.anew) waiting_since_ = pose.received;
 }
 
 void MeasuredSweeps::add(const PoseWithFrames& pose, const BodyPose& body, const FrameMotions& frames) {
   ++poses_;
+  const auto goes_to = [&](const std::string& frame) { return !pose.anew || pose.anew->concerns(frame); };
+  const bool begins = pose.anew && !pose.anew->goes_on;
   for (const auto& [frame, X_WM] : pose.X_WM) {
-    const bool goes_there = !pose.anew || pose.anew->concerns(frame);
-    if (frames.count(frame) != 0 || !goes_there) continue;
+    if (frames.count(frame) != 0 || !goes_to(frame)) continue;
     joined_.erase(frame);
-    histories_[frame].add({poses_, pose.stamp, body.X_WB, X_WM, body.deviation_bound, pose.anew.has_value()});
+    histories_[frame].add({poses_, pose.stamp, body.X_WB, X_WM, body.deviation_bound, begins});
   }
-  const bool anew = pose.anew && pose.anew->tool;
-  if (pose.anew && !anew) return;
   for (const auto& [frame, motion] : frames) {
-    if (!joined_[frame].add(pose.stamp, body, anew)) passed_over_.insert(frame);
+    if (goes_to(frame) && !joined_[frame].add(pose.stamp, body, begins)) passed_over_.insert(frame);
   }
 }
 
@@ -96,8 +95,10 @@ void MeasuredSweeps::add(const PoseWithFrames& pose, const BodyPose& body, const
 void MeasuredSweeps::join(const FrameMotions& frames) {
   for (const auto& [frame, motion] : frames) {
     joined_[frame].join(*motion, samples_);
-    for (const JoinedMotion::Sample& sample : samples_)
+    for (const JoinedMotion::Sample& sample : samples_) {
       histories_[frame].add({++poses_, sample.stamp, sample.X_WB, sample.X_WM, sample.deviation_bound, sample.anew});
+      if (sample.left_out) passed_over_.insert(frame);
+    }
   }
 }
 

@@ -33,10 +33,11 @@ double roundingOf(const PoseSample& sample) {
   return kPositionRounding * (sample.X_WT.translation().lpNorm<1>() + sample.X_WM.translation().lpNorm<1>());
 }
 
-Eigen::Isometry3d between(Time from, const Eigen::Isometry3d& X_from, Time to, const Eigen::Isometry3d& X_to,
+// @param anew  there is no motion from the one to the other
+Eigen::Isometry3d between(Time from, const Eigen::Isometry3d& X_from, Time to, const Eigen::Isometry3d& X_to, bool anew,
                           Time time) {
   if (time >= to) return X_to;
-  if (time <= from) return X_from;
+  if (time <= from || anew) return X_from;
   return Motion{X_from, X_to}.at(toSeconds(time - from) / toSeconds(to - from));
 }
 
@@ -59,7 +60,7 @@ size_t PoseHistory::endOfMotion(size_t first, size_t last) const {
 double PoseHistory::share(size_t from, size_t i, Time end) const {
   if (i <= from) return 0.0;
   const double time = toSeconds(end - (*this)[from].stamp);
-  return time > 0.0 ? toSeconds((*this)[i].stamp - (*this)[from].stamp) / time : 1.0;
+  return time > 0.0 ? std::min(1.0, toSeconds((*this)[i].stamp - (*this)[from].stamp) / time) : 1.0;
 }
 
 void PoseHistory::path_M(size_t first, size_t last, double tool_radius, Path& path_M) const {
@@ -115,11 +116,12 @@ void JoinedMotion::join(const FrameMotion& frame, std::vector<Sample>& samples) 
   if (body_.size() == 0 || (!frame_ && !begin(frame, samples))) return;
   const auto is_after = [](Time time, const FramePose& pose) { return time < pose.stamp; };
   auto next = std::upper_bound(frame.measured.begin(), frame.measured.end(), frame_->stamp, is_after);
-  while (body_.size() > 1 && next != frame.measured.end()) {
-    const Time time = std::min(body_[1].stamp, next->stamp);
-    samples.push_back(at(time, *next));
+  while (body_.size() > 1 && (next != frame.measured.end() || body_[1].stamp <= frame_->stamp)) {
+    const FramePose to = next != frame.measured.end() ? *next : FramePose{frame_->stamp, frame_->X_WM};
+    const Time time = std::min(body_[1].stamp, to.stamp);
+    samples.push_back(at(time, to));
     if (body_[1].stamp == time) body_.forgetFirst();
-    if (next->stamp == time) frame_ = *next++;
+    if (next != frame.measured.end() && next->stamp == time) frame_ = *next++;
   }
 }
 
@@ -139,10 +141,12 @@ bool JoinedMotion::begin(const FrameMotion& frame, std::vector<Sample>& samples)
 JoinedMotion::Sample JoinedMotion::at(Time time, const FramePose& next) const {
   const Pose& from = body_[0];
   const Pose& to = body_[std::min<size_t>(1, body_.size() - 1)];
-  return {time, between(from.stamp, from.body.X_WB, to.stamp, to.body.X_WB, time),
-          between(frame_->stamp, frame_->X_WM, next.stamp, next.X_WM, time),
+  return {time,
+          between(from.stamp, from.body.X_WB, to.stamp, to.body.X_WB, to.anew, time),
+          between(frame_->stamp, frame_->X_WM, next.stamp, next.X_WM, next.anew, time),
           to.body.deviation_bound + next.deviation_bound,
-          (to.anew && to.stamp == time) || (next.anew && next.stamp == time)};
+          (to.anew && to.stamp == time) || (next.anew && next.stamp == time),
+          next.left_out};
 }
 
 }  // namespace sweep_guard_core

@@ -103,10 +103,11 @@ class JoinedMotion {
     Eigen::Isometry3d X_WM;
     double deviation_bound;  ///< [m] of both together, since the previous sample
     bool anew = false;       ///< body or frame did not move here from the previous sample
+    bool left_out = false;   ///< the frame went straight past poses since the previous sample
   };
 
   /// Adds the newest pose of the body; stamps do not decrease. Of more than 8192 that wait, it goes straight past the oldest.
-  /// @param anew  the body did not move here; then the stamp is that of the pose before
+  /// @param anew  the body did not move here
   /// @returns false if it goes past one
   bool add(Time stamp, const BodyPose& body, bool anew = false) { return body_.add({stamp, body, anew}); }
 

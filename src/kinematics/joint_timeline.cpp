@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "sweep_guard/common/unwound.h"
 #include "sweep_guard/geometry/motion.h"
@@ -160,6 +161,19 @@ std::optional<Time> JointTimeline::newestOf(size_t variable) const {
 
 std::optional<Time> JointTimeline::newestOfRoot() const {
   return root_.size() == 0 ? std::nullopt : std::optional(root_.newest().stamp);
+}
+
+std::vector<Time> JointTimeline::rootStamps() const {
+  std::vector<Time> stamps;
+  for (const StampedValue<Eigen::Isometry3d>& pose : root_) stamps.push_back(pose.stamp);
+  return stamps;
+}
+
+void JointTimeline::moveRoot(const std::vector<Eigen::Isometry3d>& motions_W) {
+  assert(motions_W.size() == root_.size());
+  Track<Eigen::Isometry3d> moved;
+  for (size_t i = 0; i < root_.size(); ++i) moved.add({root_[i].stamp, motions_W[i] * root_[i].value});
+  root_ = std::move(moved);
 }
 
 void JointTimeline::reset() {

@@ -177,6 +177,7 @@ void GuardThread::resetMotion() {
   guard_.reset();
   tool_.reset();
   passed_.clear();
+  placed_anew_ = {};
 }
 
 void GuardThread::exchangeTool(const std::shared_ptr<const Parameters>& before,
@@ -329,12 +330,14 @@ bool GuardThread::process(QueuedPose& queued, const QueuedPose* next) {
     pass(queued.pose);
     return false;
   }
+  for (const std::string& frame : placed_anew_.frames) queued.pose.drifts.try_emplace(frame);
   try {
     sweep(queued);
   } catch (...) {
     guard_.takeBack();
     throw;
   }
+  placed_anew_ = {};
   return true;
 }
 
@@ -342,10 +345,10 @@ bool GuardThread::process(QueuedPose& queued, const QueuedPose* next) {
 sweep_guard_core::Time GuardThread::follow(sweep_guard_core::PoseWithFrames& pose) {
   sweep_guard_core::Time known_to = pose.stamp;
   if (dependencies_.frame_motions == nullptr) return known_to;
-  const auto frames = dependencies_.frame_motions->get();
-  sweep_guard_core::placeFollowed(*frames, pose);
-  guard_.follow(frames);
-  for (const auto& [frame, motion] : *frames) {
+  frames_ = dependencies_.frame_motions->get();
+  sweep_guard_core::placeFollowed(*frames_, pose);
+  guard_.follow(frames_);
+  for (const auto& [frame, motion] : *frames_) {
     const sweep_guard_core::Time newest = motion->measured.back().stamp;
     const bool counts = motion->goes_on && pose.stamp - newest < kSilent;
     if (counts) known_to = std::min(known_to, newest);
@@ -355,12 +358,17 @@ sweep_guard_core::Time GuardThread::follow(sweep_guard_core::PoseWithFrames& pos
 
 // What is swept of frames is needed no more.
 void GuardThread::forgetFrames() {
-  if (dependencies_.frame_motions != nullptr) dependencies_.frame_motions->forgetBefore(frames_known_to_);
+  if (dependencies_.frame_motions != nullptr) dependencies_.frame_motions->forgetBefore(swept_->pose.stamp, *frames_);
 }
 
 void GuardThread::pass(const sweep_guard_core::PoseWithFrames& pose) {
   guard_.pass(pose);
-  if (pose.anew) return tool_.interaction.reset();
+  if (pose.anew) {
+    placed_anew_.any = true;
+    placed_anew_.frames.insert(pose.anew->frames.begin(), pose.anew->frames.end());
+    if (pose.anew->tool) tool_.bodies.reset();
+    return tool_.interaction.reset();
+  }
   tool_.bodies.moved(pose);
   passed_.push_back(pose.received);
   dependencies_.scene.passed(pose);
@@ -395,7 +403,8 @@ void GuardThread::sweep(const QueuedPose& queued) {
 
 // Against what is known further of frames, up to the newest pose. If it fails, the next sweep makes up for it.
 void GuardThread::sweepOn() {
-  const bool waits = swept_ && passed_.empty() && frames_known_to_ < swept_->pose.stamp;
+  const bool is_newest = swept_ && passed_.empty() && !placed_anew_.any;
+  const bool waits = is_newest && frames_known_to_ < swept_->pose.stamp;
   if (!waits || !dependencies_.monitor.counts(checkpoint_)) return;
   frames_known_to_ = follow(swept_->pose);
   const auto report = reports_.take();

@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -171,7 +172,12 @@ class GuardThread {
   sweep_guard_core::Workpieces predicted_with_;              // at the last prediction
   bool triangles_are_new_ = false;                           // there were others at the last prediction
   std::vector<sweep_guard_core::SteadyTime> passed_;         // when the poses passed since then were received
-  sweep_guard_core::SteadyTime predicted_at_;                // time of the newest prediction
+  struct {
+    bool any = false;
+    std::set<std::string> frames = {};
+  } placed_anew_;                                                 // since then
+  sweep_guard_core::SteadyTime predicted_at_;                     // time of the newest prediction
+  std::shared_ptr<const sweep_guard_core::FrameMotions> frames_;  // at the newest sweep or prediction
   sweep_guard_core::Time frames_known_to_;  // all that are followed, at the newest sweep; at most its pose
   PredictionPace pace_;
   sweep_guard_core::Pool<sweep_guard_core::SweepReport> reports_;

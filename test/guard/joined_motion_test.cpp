@@ -95,6 +95,41 @@ TEST_F(JoinedMotionTest, AFrameThatIsPlacedAnewIsInTheOldPlaceUpToThenAndThenInT
   EXPECT_NEAR(samples[4].X_WM.translation().x(), 50.5, 1e-6);
 }
 
+TEST_F(JoinedMotionTest, RepeatsAWayWhereTheFrameWasPlacedAnewAtItsNewestStamp) {
+  for (const double x : {0.0, 1.0}) motion_.add(x == 0.0 ? at(0) : at(10) - Duration(1), {along(x)});
+  motion_.add(at(10), {along(0.0)}, /*anew=*/true);
+  motion_.add(at(10), {along(0.5)});
+  motion_.add(at(10), {along(1.0)});
+  frame_.measured = {{at(0), along(0.0), 0.0}, {at(10) - Duration(1), along(0.0), 0.0}};
+  frame_.measured.push_back({at(10), along(9.0), 0.0, /*anew=*/true});
+  std::vector<double> repeated;
+  for (const auto& sample : join()) {
+    if (sample.X_WM.translation().x() == 9.0) repeated.push_back(sample.X_WB.translation().x());
+  }
+  EXPECT_EQ(repeated, (std::vector<double>{0.0, 0.5, 1.0}));
+  EXPECT_TRUE(join().empty());
+}
+
+TEST_F(JoinedMotionTest, WhatIsPlacedAnewLaterIsInItsOldPlaceUntilThen) {
+  for (const int ms : {0, 10, 20, 30}) frame_.measured.push_back({at(ms), along(0.0), 0.0});
+  motion_.add(at(0), {along(1.0)});
+  motion_.add(at(25), {along(100.0)}, /*anew=*/true);
+  motion_.add(at(30), {along(101.0)});
+  const auto samples = join();
+  EXPECT_EQ(stampsOf(samples), (std::vector<int>{0, 10, 20, 25, 30}));
+  for (const size_t i : {1U, 2U}) EXPECT_EQ(samples[i].X_WB.translation().x(), 1.0);
+  EXPECT_TRUE(samples[3].anew);
+}
+
+TEST_F(JoinedMotionTest, SaysWhereTheFrameWentStraightPastPoses) {
+  for (const int ms : {0, 10, 20, 30}) motion_.add(at(ms), {along(0.0)});
+  frame_.measured = {{at(0), along(0.0), 0.0}, {at(15), along(1.5), 0.0}, {at(30), along(3.0), 0.0}};
+  frame_.measured[1].left_out = true;
+  std::vector<bool> left_out;
+  for (const auto& sample : join()) left_out.push_back(sample.left_out);
+  EXPECT_EQ(left_out, (std::vector<bool>{true, true, true, false, false}));
+}
+
 TEST_F(JoinedMotionTest, SaysWhenAPoseIsPassedOver) {
   for (size_t i = 0; i < PoseHistory::kMaxSize; ++i) ASSERT_TRUE(motion_.add(at(static_cast<int>(i)), {along(0.0)}));
   EXPECT_FALSE(motion_.add(at(100000), {along(0.0)}));

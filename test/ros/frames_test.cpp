@@ -98,7 +98,8 @@ TEST_F(StaticFramesTest, AChangeThatCountsIsHeldBackUntilItIsApplied) {
   ASSERT_TRUE(areTold(1));
   ASSERT_TRUE(arrives("camera", 1.0));
   EXPECT_EQ(frames_.lookup("world", "table", {}).translation().x(), 1.0);
-  EXPECT_FALSE(frames_.applyStaticChanges(std::chrono::hours(1)));
+  EXPECT_FALSE(frames_.holdsBack(std::chrono::hours(1)));
+  EXPECT_TRUE(frames_.holdsBack({}));
   EXPECT_TRUE(frames_.applyStaticChanges());
   EXPECT_EQ(frames_.lookup("world", "table", {}).translation().x(), 2.0);
   EXPECT_FALSE(frames_.applyStaticChanges());

@@ -27,14 +27,21 @@ ros::Publisher& jointPublisher() {
   return publisher;
 }
 
-GuardProbe& jointProbe() {
+void placeBase(double z) {
   static ros::Publisher mount = ros::NodeHandle().advertise<tf2_msgs::TFMessage>("/tf_static", 1, /*latch=*/true);
   tf2_msgs::TFMessage message;
   geometry_msgs::TransformStamped& base = message.transforms.emplace_back();
   base.header.frame_id = "world";
   base.child_frame_id = "base";
-  base.transform.translation.z = base.transform.rotation.w = 1.0;
-  if (mount.getNumSubscribers() == 0) mount.publish(message);
+  base.transform.translation.z = z;
+  base.transform.rotation.w = 1.0;
+  mount.publish(message);
+}
+
+GuardProbe& jointProbe() {
+  static bool is_placed = false;
+  if (!is_placed) placeBase(1.0);
+  is_placed = true;
   static GuardProbe probe(/*drives_clock=*/true, PoseSource::kTf);
   return probe;
 }
@@ -126,6 +133,46 @@ TEST_F(JointStatesTest, TheFingerThatClosesOnAWorkpieceIsNamed) {
   holdUntil(kStraight, isClearNow);
   const auto contacts = move(kStraight, {{"shoulder", 0.0}, {"elbow", 0.0}, {"jaw", 0.0}});
   EXPECT_EQ(linksIn(contacts), std::set<std::string>{"left"});
+}
+
+class BaseChangeTest : public JointStatesTest {
+ protected:
+  void TearDown() override {
+    change(1.0);
+    holdUntil(kStraight, isClearNow);
+    JointStatesTest::TearDown();
+  }
+
+  void change(double z) {
+    jointProbe().skipWarnings();
+    placeBase(z);
+    jointProbe().awaitWarning([](const Warning& next) { return (next.reasons & Warning::TIME_JUMP) != 0; });
+  }
+};
+
+TEST_F(BaseChangeTest, TheMoveItselfIsNoMotion) {
+  placeSquare("square", {0.3, 0.0, 2.0}, 0.1);
+  holdUntil(kStraight, isClearNow);
+  change(3.0);
+  EXPECT_EQ(linksIn(move(kStraight, kStraight)), std::set<std::string>{});
+}
+
+TEST_F(BaseChangeTest, WhatTheJointsMeetMeanwhileIsFoundInBothPlaces) {
+  for (const double square_z : {0.7, 2.7}) {
+    placeSquare("square", {0.32, 0.0, square_z}, 0.05);
+    holdUntil(kStraight, isClearNow);
+    change(3.0);
+    jointProbe().forgetContacts();
+    const Positions down = {{"shoulder", 1.5}, {"elbow", 0.0}, {"jaw", 0.04}};
+    for (int i = 0; i < 2; ++i) {
+      jointProbe().tick(0.01);
+      publish(down);
+    }
+    EXPECT_FALSE(linksIn(jointProbe().awaitContactsUpTo(jointProbe().time())).empty()) << square_z;
+    holdUntil(kStraight, isClearNow);
+    change(1.0);
+  }
+  change(3.0);
 }
 
 TEST_F(JointStatesTest, TheLinkThatWillTouchFirstIsPredicted) {

@@ -18,6 +18,7 @@ constexpr int kToolPoses = 30;
 constexpr int kContacts = 60;  // of each workpiece
 constexpr size_t kMaxTransforms = 300;
 constexpr double kDeep = 1e-9;  // [m]: more than what poses are rounded by
+constexpr Duration kBeforeChange(1);
 const Time kBegin(std::chrono::seconds(100));
 
 // Poses at ascending times.
@@ -30,10 +31,10 @@ struct PoseTrack {
                 const Isometry3d& after = Isometry3d::Identity()) const {
     return {before * poses[end - 1] * after, before * poses[end] * after};
   }
-  // @param late  the motion begins so much after its first stamp
-  Real fraction(size_t end, Time time, Duration late = {}) const {
-    const Time begin = stamps[end - 1] + late;
-    return static_cast<Real>((time - begin).count()) / static_cast<Real>((stamps[end] - begin).count());
+  // @param early  the motion ends so much before its last stamp
+  Real fraction(size_t end, Time time, Duration early = {}) const {
+    const Time begin = stamps[end - 1];
+    return static_cast<Real>((time - begin).count()) / static_cast<Real>((stamps[end] - early - begin).count());
   }
   size_t endOfMotionAt(Time time) const {
     const auto end = std::lower_bound(stamps.begin() + 1, stamps.end() - 1, time);
@@ -78,19 +79,29 @@ struct LateScene {
   Bodies tool;
   PoseTrack tool_W;
   PoseTrack tray_W;
+  std::vector<Time> tool_arrivals;
+  std::vector<Time> tray_arrivals;
   Isometry3d X_WTable = Isometry3d::Identity();
   Anew anew = Anew::kNothing;
-  size_t anew_from = 0;  // pose of the tool, or transform of the tray
+  size_t anew_from = 0;     // pose of the tool
+  size_t known_before = 0;  // the newest transform of the tray then
   Isometry3d change = Isometry3d::Identity();
   std::array<Triangles, 2> triangles;
   std::vector<KnownContact> contacts;
 
-  bool isAnew(Anew what, size_t index) const { return anew == what && index >= anew_from; }
+  Time changesAt() const { return tool_W.stamps[anew_from]; }
+  Duration toolEnds(size_t end) const {
+    return anew != Anew::kNothing && end == anew_from ? kBeforeChange : Duration::zero();
+  }
   Isometry3d toolChange(bool changed) const { return changed && anew == Anew::kTool ? change : Isometry3d::Identity(); }
   Isometry3d tablePose(bool changed) const { return changed && anew == Anew::kTable ? X_WTable * change : X_WTable; }
-  Isometry3d trayPose(size_t i) const { return isAnew(Anew::kTray, i) ? tray_W.poses[i] * change : tray_W.poses[i]; }
-  Duration trayBegins(size_t end) const { return Duration(anew == Anew::kTray && end == anew_from ? 1 : 0); }
-  Isometry3d toolPose(size_t i) const { return isAnew(Anew::kTool, i) ? change * tool_W.poses[i] : tool_W.poses[i]; }
+  Isometry3d trayChange(bool changed) const { return changed && anew == Anew::kTray ? change : Isometry3d::Identity(); }
+  Isometry3d toolPose(size_t i) const { return toolChange(i >= anew_from) * tool_W.poses[i]; }
+  // Between two transforms, after the change of its place or before.
+  Isometry3d trayPose(size_t end, Time stamp, bool changed) const {
+    return tray_W.motion(end, Isometry3d::Identity(), trayChange(changed))
+        .at(static_cast<double>(tray_W.fraction(end, stamp)));
+  }
 };
 
 Vector3r deepPoint(Random& random, const Body& body, Real inset) {
@@ -122,8 +133,11 @@ class SceneMaker {
     scene_.tray_W = randomTrack(random_, kBegin - fromSeconds(random_.uniform(0.0, seldom)), seldom, count, step);
     scene_.X_WTable = random_.pose(random_.inBox(size_ * Eigen::Vector3d::Ones()));
     scene_.anew = static_cast<LateScene::Anew>(random_.below(4));
-    const size_t last = scene_.anew == LateScene::Anew::kTray ? count - 1 : kToolPoses - 1;
-    scene_.anew_from = 1 + static_cast<size_t>(random_.below(static_cast<int>(last)));
+    scene_.anew_from = 1 + static_cast<size_t>(random_.below(kToolPoses - 1));
+    if (random_.chance(0.3)) letOneStampBe(scene_.changesAt(), scene_.tray_W.stamps);
+    scene_.tool_arrivals = arrivals(random_, scene_.tool_W, random_.logUniform(1e-4, 0.05));
+    scene_.tray_arrivals = arrivals(random_, scene_.tray_W, random_.logUniform(1e-4, 0.2));
+    scene_.known_before = newestTransformAt(scene_.tool_arrivals[scene_.anew_from]);
     scene_.change = random_.pose(random_.inBox(size_ * Eigen::Vector3d::Ones()));
     for (int i = 0; i < kContacts; ++i) {
       addToTable();
@@ -141,6 +155,18 @@ class SceneMaker {
       scene_.tool = randomBodies(random_, random_.logUniform(0.01, 0.2));
       size_ = extentOf(scene_.tool);
     } while (!hasInset(scene_.tool.front(), kDeep));
+  }
+
+  // Tool and tray are often measured together.
+  static void letOneStampBe(Time stamp, std::vector<Time>& stamps) {
+    const auto later = std::upper_bound(stamps.begin() + 1, stamps.end(), stamp);
+    if (later != stamps.end() && *std::prev(later) < stamp) *later = stamp;
+  }
+
+  size_t newestTransformAt(Time at) const {
+    const auto& times = scene_.tray_arrivals;
+    const auto later = std::upper_bound(times.begin() + 1, times.end(), at);
+    return static_cast<size_t>(later - times.begin()) - 1;
   }
 
   Vector3r point() { return deepPoint(random_, scene_.tool.front(), kDeep); }
@@ -168,7 +194,6 @@ class SceneMaker {
     add(0, ExactMotion(Motion{X_WM, X_WM}).inTool(0, p_W), scene_.tool_W.stamps[end]);
   }
 
-  // Where the tray is placed anew at its newest transform, both places count from there on.
   void addToTray() {
     const PoseTrack& tray = scene_.tray_W;
     const Time from = std::max(scene_.tool_W.stamps.front(), tray.stamps.front());
@@ -176,16 +201,35 @@ class SceneMaker {
     if (from >= to) return;
     const Time time = timeBetween(from, to);
     const size_t end = scene_.tool_W.endOfMotionAt(time);
-    const size_t tray_end = tray.endOfMotionAt(time);
-    if (scene_.anew == LateScene::Anew::kTool && end == scene_.anew_from) return;  // where the tray is then is not kept
-    const Duration late = scene_.trayBegins(tray_end);
-    if (time <= tray.stamps[tray_end - 1] + late) return;
-    const bool changed = scene_.isAnew(LateScene::Anew::kTray, tray_end);
-    const ExactMotion tool(scene_.tool_W.motion(end, scene_.toolChange(end > scene_.anew_from)));
-    const ExactMotion frame(
-        tray.motion(tray_end, Isometry3d::Identity(), changed ? scene_.change : Isometry3d::Identity()));
-    const Vector3r p_W = tool.at(scene_.tool_W.fraction(end, time), point());
-    add(1, frame.inTool(tray.fraction(tray_end, time, late), p_W), time);
+    const bool both = scene_.anew == LateScene::Anew::kTray || scene_.anew == LateScene::Anew::kTool;
+    if (both && end == scene_.anew_from && random_.chance(0.5)) return addToTrayAnew();
+    const Duration early = scene_.toolEnds(end);
+    if (time > scene_.tool_W.stamps[end] - early || !isKnown(time)) return;
+    const bool changed = end > scene_.anew_from;
+    const ExactMotion tool(scene_.tool_W.motion(end, scene_.toolChange(changed)));
+    addToTray(tool.at(scene_.tool_W.fraction(end, time, early), point()), time, changed);
+  }
+  // The way to the pose at which the tool or the tray was placed anew, which takes no time.
+  void addToTrayAnew() {
+    const Time stamp = scene_.changesAt();
+    const auto& stamps = scene_.tray_W.stamps;
+    const Time known = scene_.anew == LateScene::Anew::kTray ? stamps[scene_.known_before] : stamps.back();
+    if (known < stamp || stamp <= stamps.front()) return;
+    const ExactMotion tool(scene_.tool_W.motion(scene_.anew_from, scene_.toolChange(true)));
+    addToTray(tool.at(static_cast<Real>(random_.uniform(0.0, 1.0)), point()), stamp, /*changed=*/true);
+  }
+  void addToTray(const Vector3r& p_W, Time time, bool changed) {
+    const size_t end = scene_.tray_W.endOfMotionAt(time);
+    const ExactMotion tray(scene_.tray_W.motion(end, Isometry3d::Identity(), scene_.trayChange(changed)));
+    add(1, tray.inTool(scene_.tray_W.fraction(end, time), p_W), time);
+  }
+  // Around the change, the tray goes on from its newest transform before, to the first one after.
+  bool isKnown(Time time) const {
+    const Time newest = scene_.tray_W.stamps[scene_.known_before];
+    if (scene_.anew != LateScene::Anew::kTray || time <= newest || newest >= scene_.changesAt()) return true;
+    const auto& stamps = scene_.tray_W.stamps;
+    const auto first = std::upper_bound(stamps.begin(), stamps.end(), scene_.changesAt());
+    return first != stamps.end() && time >= *first;
   }
 
   Random& random_;
@@ -206,8 +250,8 @@ class LateSession {
   }
 
   void play() {
-    const std::vector<Time> poses = arrivals(random_, scene_.tool_W, random_.logUniform(1e-4, 0.05));
-    const std::vector<Time> transforms = arrivals(random_, scene_.tray_W, random_.logUniform(1e-4, 0.2));
+    const std::vector<Time>& poses = scene_.tool_arrivals;
+    const std::vector<Time>& transforms = scene_.tray_arrivals;
     hearTray(transforms[0]);
     while (next_pose_ < poses.size() || next_transform_ < transforms.size()) {
       const bool is_pose = next_transform_ == transforms.size() ||
@@ -239,15 +283,16 @@ class LateSession {
   void hearTray(Time at) {
     const size_t i = next_transform_++;
     const PoseTrack& tray = scene_.tray_W;
-    if (i > 0 && i == scene_.anew_from && scene_.anew == LateScene::Anew::kTray) {
-      const Time stamp = tray.stamps[i - 1] + Duration(1);
-      store_.add("tray", {stamp, tray.poses[i - 1] * scene_.change, 0.0, /*anew=*/true});
-    }
+    std::vector<FramePose> samples;
+    const auto sample = [&](Time stamp) {
+      if (tray_anew_from_ < stamp) samples.push_back({stamp, trayPose(stamp)});
+    };
     for (const Time stamp : wanted_) {
-      if (i > 0 && tray.stamps[i - 1] + Duration(1) < stamp && stamp < tray.stamps[i]) sampleTray(i, stamp);
+      if (i > 0 && tray.stamps[i - 1] < stamp && stamp < tray.stamps[i]) sample(stamp);
     }
     wanted_.erase(wanted_.begin(), std::upper_bound(wanted_.begin(), wanted_.end(), tray.stamps[i]));
-    store_.add("tray", {tray.stamps[i], scene_.trayPose(i)});
+    sample(tray.stamps[i]);
+    store_.add("tray", samples);
     monitor_.frameHeard("tray", tray.stamps[i], instant(at));
     if (!swept_ || passed_ || random_.chance(0.1)) return;
     guard_.follow(store_.get());
@@ -255,34 +300,39 @@ class LateSession {
     take(at);
   }
 
-  void sampleTray(size_t end, Time stamp) {
-    const bool changed = scene_.isAnew(LateScene::Anew::kTray, end);
-    const Motion motion =
-        scene_.tray_W.motion(end, Isometry3d::Identity(), changed ? scene_.change : Isometry3d::Identity());
-    store_.add("tray",
-               {stamp, motion.at(static_cast<double>(scene_.tray_W.fraction(end, stamp, scene_.trayBegins(end))))});
+  // As it is now, at a time that is known.
+  Isometry3d trayPose(Time stamp) const {
+    return scene_.trayPose(scene_.tray_W.endOfMotionAt(stamp), stamp, tray_anew_from_ > Time());
+  }
+
+  void placeTrayAnew(Time stamp) {
+    const size_t newest = next_transform_ - 1;
+    const auto motion = store_.find("tray");
+    const auto X_old = motion->at(stamp);
+    tray_anew_from_ = stamp;
+    std::vector<FramePose> placed;
+    const Isometry3d& X_newest = scene_.tray_W.poses[newest];
+    if (stamp <= scene_.tray_W.stamps[newest] && stamp >= scene_.tray_W.stamps.front()) {
+      placed.push_back({stamp, trayPose(stamp)});
+    } else if (X_old) {
+      placed.push_back({stamp, X_newest * scene_.change * X_newest.inverse() * X_old->X_WT});
+    }
+    for (const FramePose& pose : motion->measured) {
+      if (stamp < pose.stamp) placed.push_back({pose.stamp, trayPose(pose.stamp)});
+    }
+    store_.placeAnew("tray", placed);
   }
 
   void hearPose(Time at) {
     const size_t i = next_pose_++;
     const Time stamp = scene_.tool_W.stamps[i];
     const PoseTrack& tray = scene_.tray_W;
-    if (stamp < tray.stamps[next_transform_ - 1]) {
-      const size_t end = tray.endOfMotionAt(stamp);
-      if (tray.stamps[end - 1] + Duration(1) < stamp) sampleTray(end, stamp);
-    } else {
+    if (stamp >= tray.stamps[next_transform_ - 1]) {
       wanted_.push_back(stamp);
+    } else if (stamp > tray.stamps.front()) {
+      store_.add("tray", {{stamp, trayPose(stamp)}});
     }
-    const bool is_anew =
-        i == scene_.anew_from && (scene_.anew == LateScene::Anew::kTable || scene_.anew == LateScene::Anew::kTool);
-    if (is_anew) {
-      pass(pose(stamp, scene_.tool_W.poses[i], /*changed=*/false));
-      PoseWithFrames before = pose(stamp, scene_.toolChange(true) * scene_.tool_W.poses[i - 1], /*changed=*/true);
-      before.anew = PlacedAnew{};
-      before.anew->tool = scene_.anew == LateScene::Anew::kTool;
-      if (!before.anew->tool) before.anew->frames = {"table"};
-      pass(before);
-    }
+    if (i == scene_.anew_from && scene_.anew != LateScene::Anew::kNothing) passAnew(i);
     const PoseWithFrames now = pose(stamp, scene_.toolPose(i), i >= scene_.anew_from);
     if (i + 1 < scene_.tool_W.size() && random_.chance(0.3)) return pass(now);
     follow();
@@ -290,7 +340,24 @@ class LateSession {
     swept_ = now;
     passed_ = false;
     take(at);
-    store_.forgetBefore(std::min(stamp, tray.stamps[next_transform_ - 1]));
+    store_.forgetBefore(stamp, *store_.get());
+  }
+
+  // The way to this pose, where things were and then where they are; it is repeated in no time.
+  void passAnew(size_t i) {
+    const Time stamp = scene_.tool_W.stamps[i];
+    pass(pose(stamp - kBeforeChange, scene_.tool_W.poses[i], /*changed=*/false));
+    if (scene_.anew == LateScene::Anew::kTray) placeTrayAnew(stamp);
+    PoseWithFrames before = pose(stamp, scene_.toolChange(true) * scene_.tool_W.poses[i - 1], /*changed=*/true);
+    before.anew = PlacedAnew{};
+    before.anew->tool = scene_.anew == LateScene::Anew::kTool;
+    if (scene_.anew == LateScene::Anew::kTable) before.anew->frames = {"table"};
+    if (scene_.anew == LateScene::Anew::kTray) before.anew->frames = {"tray"};
+    pass(before);
+    if (random_.chance(0.5)) return;
+    before.anew->goes_on = true;
+    before.X_WT = scene_.toolPose(i);
+    pass(before);
   }
 
   PoseWithFrames pose(Time stamp, const Isometry3d& X_WT, bool changed) {
@@ -338,6 +405,7 @@ class LateSession {
   size_t next_pose_ = 0;
   size_t next_transform_ = 0;
   std::vector<Time> wanted_;
+  Time tray_anew_from_;
   std::optional<PoseWithFrames> swept_;
   bool passed_ = false;
   std::array<std::set<std::uint32_t>, 2> reported_;

@@ -24,6 +24,7 @@ struct FramePose {
   double deviation_bound = 0.0;
   /// It did not move here from the pose before: a static transform has changed.
   bool anew = false;
+  bool left_out = false;  ///< poses between this one and the one before were dropped
 };
 
 /// How a frame moves on its own: a body of another tool, whose guard measures and predicts it, or a frame that tf measures and nobody
@@ -33,7 +34,8 @@ struct FrameMotion {
   Time predicted_from;              ///< stamp at which `predicted` begins; means nothing without it
   /// Its first pose is the one at `predicted_from`, without error; empty: where the frame goes is not known.
   PredictedPath predicted = {};
-  /// Without a prediction: it goes on at velocity(). The standard deviation of its error, over all axes, is speed times time.
+  /// Without a prediction: it goes on at velocity() for 2 s, and then rests. The standard deviation of its error, over all axes, is
+  /// speed times time.
   bool goes_on = false;
 
   /// Returns the pose at a time: measured up to `predicted_from`, then predicted. For 0.25 s after its end, the prediction goes
@@ -41,7 +43,7 @@ struct FrameMotion {
   std::optional<PredictedPose> at(Time time) const;
 
   /// Returns the velocity of its origin [m/s] and the angular velocity [rad/s], along the axes of W, over the last 20 ms or more of
-  /// the measured poses; 0 if there are not two.
+  /// the measured poses; 0 if there are not two. After less time since it was placed anew, it is that from before, turned with it.
   Vector6d velocity() const;
 };
 
@@ -77,17 +79,22 @@ class FrameMotionStore {
   /// Replaces motions. Those of frames that are not expected are left out.
   void set(const FrameMotions& motions);
 
-  /// Adds a pose of a frame that nobody predicts and that goes_on, in any order; of several at one time, the first counts. Kept is what forgetBefore() leaves: at most 8192
-  /// poses, of which the oldest but one goes first.
-  /// @returns false if a pose was dropped
-  bool add(const std::string& frame, const FramePose& pose);
+  /// Adds poses of a frame that nobody predicts and that goes_on, in any order; of several at one time, the first counts. Kept is
+  /// what forgetBefore() leaves: at most 8192 poses, of which the oldest but one goes first.
+  void add(const std::string& frame, const std::vector<FramePose>& poses);
+  /// Replaces what was added of a frame from the first of these poses on: it did not move there. Up to then it is where it was.
+  /// @param placed  at least one; stamps ascend
+  void placeAnew(const std::string& frame, std::vector<FramePose> placed);
   /// Forgets what add() added of frames other than these.
   void keepOnly(const std::set<std::string>& frames);
-  /// Forgets, as poses are added, those of before this stamp, up to which the tool has been swept in all of these frames; but for
-  /// what velocity() needs.
-  void forgetBefore(Time swept);
+  /// Forgets, as poses are added, those of before the sweep of a pose of the tool, but for what velocity() needs.
+  /// @param pose   its stamp
+  /// @param known  what was known of the frames at that sweep
+  void forgetBefore(Time pose, const FrameMotions& known);
 
   std::shared_ptr<const FrameMotions> get() const;
+  /// Returns the motion of a frame; null if there is none.
+  std::shared_ptr<const FrameMotion> find(const std::string& frame) const;
   bool expects(const std::string& frame) const;
   /// Returns the pose of a frame at a time; empty: not known.
   std::optional<Eigen::Isometry3d> at(const std::string& frame, Time time) const;
@@ -95,13 +102,14 @@ class FrameMotionStore {
   std::optional<Eigen::Isometry3d> newest(const std::string& frame) const;
 
  private:
-  std::shared_ptr<const FrameMotion> find(const std::string& frame) const;
+  FrameMotion motionOf(const std::string& frame) const;
+  void replace(const std::string& frame, FrameMotion motion);
 
   mutable PriorityMutex mutex_;
   std::set<std::string> frames_;
   std::shared_ptr<const FrameMotions> motions_;
-  std::set<std::string> added_;  // frames of add()
-  Time needed_from_;             // as forgetBefore()
+  std::set<std::string> added_;              // frames of add()
+  std::map<std::string, Time> needed_from_;  // by frame, as forgetBefore()
 };
 
 }  // namespace sweep_guard_core

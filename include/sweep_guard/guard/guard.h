@@ -55,8 +55,8 @@ class Guard {
   /// reported as unplaced. Once its frame is known again, it is swept through the added poses that hold its frame.
   /// @param pose  finite, rotations orthonormal, stamp not earlier than the previous pose's, PoseWithFrames::bodies as many
   ///     as the robot's, with its state, or none without a robot; not checked. After time went back, call reset() first.
-  ///     Where a static transform has changed: first the pose in the old placement, then the pose before it in the new one, with
-  ///     this stamp and PoseWithFrames::anew, then this pose in the new one
+  ///     Where a static transform has changed: first the pose in the old placement, 1 ns earlier, then the poses of the way to it in
+  ///     the new one, with its stamp and PoseWithFrames::anew, then the pose itself in the new one
   void pass(const PoseWithFrames& pose);
 
   /// Sweeps from the pose of the last sweep, through the poses passed since, to this pose. If the detector fails or

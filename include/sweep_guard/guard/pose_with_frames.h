@@ -26,6 +26,7 @@ struct BodyPose {
 struct PlacedAnew {
   bool tool = false;                  ///< the tool with all its bodies
   std::set<std::string> frames = {};  ///< frames of workpieces
+  bool goes_on = false;               ///< these move here from the pose before, which was placed anew as well
 
   bool concerns(const std::string& frame) const { return tool || frames.count(frame) != 0; }
 };
@@ -54,9 +55,10 @@ struct PoseWithFrames {
   /// there. Empty: nothing did.
   std::string jump = {};
   /// Of this pose: what is not moved to it from the pose before, because a static transform has changed. The motion goes on
-  /// from here for these, and does not come here for the others.
+  /// from here for these, and does not come here for the others. Poses that are placed anew repeat a way in no time.
   std::optional<PlacedAnew> anew = {};
-  std::map<std::string, FrameDrift> drifts = {};  ///< of those of X_WM that are followed, see placeFollowed()
+  /// Of those of X_WM that are followed, see placeFollowed(), or were placed anew since the pose before.
+  std::map<std::string, FrameDrift> drifts = {};
 
   BodyPose body(size_t i) const { return bodies.empty() ? BodyPose{X_WT} : bodies[i]; }
 };

@@ -76,6 +76,12 @@ class JointTimeline {
   std::optional<Time> newestOf(size_t variable) const;
   std::optional<Time> newestOfRoot() const;  ///< the same of a root that moves; empty also if it does not move
 
+  /// Returns the stamps of the poses of the root that later states need.
+  std::vector<Time> rootStamps() const;
+  /// Moves these poses.
+  /// @param motions_W  of each, in the frame that it is given in
+  void moveRoot(const std::vector<Eigen::Isometry3d>& motions_W);
+
   void reset();  ///< forgets all positions
 
  private:

@@ -95,6 +95,22 @@ std::string ArticulatedTool::silence(Time now) const {
   return silence;
 }
 
+void ArticulatedTool::placeAnew(const PoseOfFrame& X_WF, const std::function<void()>& place) {
+  std::vector<Time> stamps = timeline_.rootStamps();
+  if (stamp_) stamps.push_back(*stamp_);
+  std::vector<std::optional<Eigen::Isometry3d>> before;
+  for (const Time stamp : stamps) before.push_back(X_WF(stamp));
+  place();
+  std::vector<Eigen::Isometry3d> motions_W(stamps.size(), Eigen::Isometry3d::Identity());
+  for (size_t i = 0; i < stamps.size(); ++i) {
+    const auto now = X_WF(stamps[i]);
+    if (before[i] && now) motions_W[i] = *now * before[i]->inverse();
+  }
+  if (stamp_) state_.X_WR = motions_W.back() * state_.X_WR;
+  motions_W.resize(timeline_.rootStamps().size());
+  timeline_.moveRoot(motions_W);
+}
+
 void ArticulatedTool::reset() {
   timeline_.reset();
   next_stamp_.reset();

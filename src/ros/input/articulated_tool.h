@@ -52,6 +52,12 @@ class ArticulatedTool {
   /// @param now  as the stamps
   std::string silence(sweep_guard_core::Time now) const;
 
+  using PoseOfFrame = std::function<std::optional<Eigen::Isometry3d>(sweep_guard_core::Time)>;
+  /// Moves what is known of the tool frame with a frame that is placed anew.
+  /// @param X_WF   returns its pose at a time; empty: not known
+  /// @param place  places it anew
+  void placeAnew(const PoseOfFrame& X_WF, const std::function<void()>& place);
+
   void reset();  ///< forgets all positions
 
  private:

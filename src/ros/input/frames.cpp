@@ -128,24 +128,22 @@ std::uint64_t Frames::staticChanges() const {
   return static_changes_;
 }
 
-bool Frames::holdsBack() const {
+bool Frames::holdsBack(sweep_guard_core::Duration longer_than) const {
   const std::lock_guard lock(changes_mutex_);
-  return !held_back_.empty();
+  return !held_back_.empty() && std::chrono::steady_clock::now() - held_back_since_ > longer_than;
 }
 
-bool Frames::applyStaticChanges(sweep_guard_core::Duration older_than) {
+bool Frames::applyStaticChanges() {
   std::map<std::string, StaticChange> changes;
   {
     const std::lock_guard lock(changes_mutex_);
-    const bool waits = std::chrono::steady_clock::now() - held_back_since_ <= older_than;
-    if (held_back_.empty() || waits) return false;
     std::swap(changes, held_back_);
   }
   for (const auto& [child, change] : changes) {
     buffer_.setTransform(change.transform, change.publisher, /*is_static=*/true);
     tree_.add(withoutSlash(change.transform.header.frame_id), child);
   }
-  return true;
+  return !changes.empty();
 }
 
 void Frames::use(const std::string& user, const std::string& target, const std::set<std::string>& sources) {

@@ -88,11 +88,11 @@ class Frames {
 
   /// Returns how many static transforms that count have changed, held back or not.
   std::uint64_t staticChanges() const;
-  bool holdsBack() const;  ///< a change that counts
+  /// Returns whether a change that counts has been held back for longer than this.
+  bool holdsBack(sweep_guard_core::Duration longer_than) const;
   /// Applies the changes that are held back.
-  /// @param older_than  only if the first of them has waited for longer
   /// @returns whether there were any
-  bool applyStaticChanges(sweep_guard_core::Duration older_than = sweep_guard_core::Duration(-1));
+  bool applyStaticChanges();
 
  private:
   void onTransforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& event, bool is_static);

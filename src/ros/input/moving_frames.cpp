@@ -29,7 +29,9 @@ MovingFrames::Poses MovingFrames::locate(const std::set<std::string>& frames, Ti
         continue;
       }
       follow(frame, newest);
-      if (stamp < newest.stamp) sampleAt(frame, stamp);
+      samples_.clear();
+      if (stamp < newest.stamp && followed_[frame].anew_from < stamp) sampleAt(frame, stamp);
+      dependencies_.frame_motions.add(frame, samples_);
       moving.insert(frame);
     } catch (const FrameError& error) {
       report(frame, error);
@@ -63,12 +65,14 @@ void MovingFrames::sample() {
   dependencies_.queue.framesMoved();
 }
 
-bool MovingFrames::applyStaticChanges(sweep_guard_core::Duration older_than) {
+std::set<std::string> MovingFrames::applyStaticChanges(Time from) {
   const std::lock_guard lock(mutex_);
-  if (!dependencies_.frames.applyStaticChanges(older_than)) return false;
-  ++changes_;
-  for (const auto& [frame, followed] : followed_) follow(frame);
-  return true;
+  std::set<std::string> anew;
+  if (!dependencies_.frames.applyStaticChanges()) return anew;
+  for (auto& [frame, followed] : followed_) {
+    if (placeAnew(frame, followed, from)) anew.insert(frame);
+  }
+  return anew;
 }
 
 bool MovingFrames::follow(const std::string& frame) {
@@ -81,8 +85,9 @@ bool MovingFrames::follow(const std::string& frame) {
 
 // Returns whether it is known further.
 bool MovingFrames::follow(const std::string& frame, const NewestPose& newest) {
-  const auto [known, is_new] = followed_.emplace(frame, Followed{newest, changes_});
+  const auto [known, is_new] = followed_.emplace(frame, Followed{newest, Time()});
   Followed& followed = known->second;
+  samples_.clear();
   if (!is_new && newest.stamp < followed.newest.stamp) {  // time went back
     std::set<std::string> others;
     for (const auto& [other, state] : followed_) {
@@ -90,39 +95,53 @@ bool MovingFrames::follow(const std::string& frame, const NewestPose& newest) {
     }
     dependencies_.frame_motions.keepOnly(others);
     wanted_.clear();
+    followed.anew_from = Time();
   } else if (!is_new) {
-    if (followed.changes != changes_) placeAnew(frame, followed);
     if (newest.stamp == followed.newest.stamp) return false;
+    const Time known_to = std::max(followed.newest.stamp, followed.anew_from);
     for (const Time stamp : wanted_) {
-      if (followed.newest.stamp < stamp && stamp < newest.stamp) sampleAt(frame, stamp);
+      if (known_to < stamp && stamp < newest.stamp) sampleAt(frame, stamp);
     }
   }
-  followed = {newest, changes_};
-  add(frame, {newest.stamp, newest.X});
+  followed.newest = newest;
+  if (followed.anew_from < newest.stamp) samples_.push_back({newest.stamp, newest.X});
+  dependencies_.frame_motions.add(frame, samples_);
   dependencies_.monitor.frameHeard(frame, newest.stamp, now());
   return true;
 }
 
-// From its newest pose on, it is where the changed transforms say: between the two there is no time to move.
-void MovingFrames::placeAnew(const std::string& frame, Followed& followed) {
-  followed.changes = changes_;
-  const Eigen::Isometry3d X = dependencies_.frames.lookup(fixed_frame_, frame, followed.newest.stamp);
-  if (X.matrix() == followed.newest.X.matrix()) return;
-  add(frame, {followed.newest.stamp + std::chrono::nanoseconds(1), X, 0.0, /*anew=*/true});
+// Where it is not known yet, it went on in its old place, and goes on from there in its new one.
+bool MovingFrames::placeAnew(const std::string& frame, Followed& followed, Time from) {
+  const auto motion = dependencies_.frame_motions.find(frame);
+  if (!motion) return false;
+  from = std::max(from, motion->measured.front().stamp);
+  samples_.clear();
+  try {
+    const Eigen::Isometry3d X = dependencies_.frames.lookup(fixed_frame_, frame, followed.newest.stamp);
+    if (X.matrix() == followed.newest.X.matrix()) return false;
+    const Eigen::Isometry3d moved_W = X * followed.newest.X.inverse();
+    followed.newest.X = X;
+    if (from < followed.newest.stamp) sampleAt(frame, from);
+    const auto X_old = motion->at(from);
+    if (samples_.empty() && X_old) samples_.push_back({from, moved_W * X_old->X_WT});
+    for (const sweep_guard_core::FramePose& pose : motion->measured) {
+      if (from < pose.stamp) sampleAt(frame, pose.stamp);
+    }
+  } catch (const FrameError&) {
+    return false;  // the next pose reports it
+  }
+  if (samples_.empty()) return false;
+  followed.anew_from = from;
+  dependencies_.frame_motions.placeAnew(frame, samples_);
+  return true;
 }
 
 // tf may have forgotten it, or not know it yet: then the frame moves straight past it.
 void MovingFrames::sampleAt(const std::string& frame, Time stamp) {
   try {
-    add(frame, {stamp, dependencies_.frames.lookup(fixed_frame_, frame, stamp)});
+    samples_.push_back({stamp, dependencies_.frames.lookup(fixed_frame_, frame, stamp)});
   } catch (const FrameError&) {
   }
-}
-
-void MovingFrames::add(const std::string& frame, const sweep_guard_core::FramePose& pose) {
-  if (dependencies_.frame_motions.add(frame, pose)) return;
-  dependencies_.monitor.fault(sweep_guard_core::kPosesUnswept,
-                              "transforms of '" + frame + "' were left out: too many wait to be swept");
 }
 
 void MovingFrames::keepOnly(const std::set<std::string>& moving) {

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "monitor/input_record.h"
 #include "ros/input/frames.h"
@@ -44,19 +45,21 @@ class MovingFrames {
   void sample();
 
   /// Applies the static transforms that are held back, as Frames. Any thread.
-  bool applyStaticChanges(sweep_guard_core::Duration older_than = sweep_guard_core::Duration(-1));
+  /// @param from  stamp from which on the frames that are followed are where these say
+  /// @returns those of these frames that were placed anew
+  std::set<std::string> applyStaticChanges(sweep_guard_core::Time from);
 
  private:
   struct Followed {
     NewestPose newest;
-    std::uint64_t changes;  // of static transforms, at that time
+    sweep_guard_core::Time
+        anew_from;  // its last change of place by a static transform: earlier poses are known no more
   };
 
   bool follow(const std::string& frame);
   bool follow(const std::string& frame, const NewestPose& newest);
-  void placeAnew(const std::string& frame, Followed& followed);
+  bool placeAnew(const std::string& frame, Followed& followed, sweep_guard_core::Time from);
   void sampleAt(const std::string& frame, sweep_guard_core::Time stamp);
-  void add(const std::string& frame, const sweep_guard_core::FramePose& pose);
   void keepOnly(const std::set<std::string>& moving);
   void report(const std::string& frame, const FrameError& error);
   void forgetWanted();
@@ -65,8 +68,8 @@ class MovingFrames {
   const MovingFramesDependencies dependencies_;
   std::mutex mutex_;
   std::map<std::string, Followed> followed_;
-  std::deque<sweep_guard_core::Time> wanted_;  // stamps of poses at which one of them is not known yet
-  std::uint64_t changes_ = 0;                  // of static transforms that were applied
+  std::deque<sweep_guard_core::Time> wanted_;         // stamps of poses at which one of them is not known yet
+  std::vector<sweep_guard_core::FramePose> samples_;  // of one of them
   LogThrottle log_;
 };
 

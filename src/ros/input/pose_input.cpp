@@ -1,6 +1,8 @@
 #include "ros/input/pose_input.h"
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
+#include <utility>
 
 #include "ros/input/future_stamp.h"
 #include "sweep_guard/common/error.h"
@@ -16,7 +18,8 @@ constexpr size_t kMaxWaitingPoses = 8192;  // poses
 constexpr size_t kMaxToolFrames = 16;      // made-up names take no room from others
 constexpr size_t kMaxMessageSize = 16384;  // a frame name of any sense fits [bytes]
 constexpr const char* kPassed = "positions of joints were dropped: others were silent meanwhile";
-constexpr size_t kMaxJointsSize = 1U << 20U;  // [bytes]
+constexpr size_t kMaxJointsSize = 1U << 20U;                                       // [bytes]
+constexpr sweep_guard_core::Duration kBeforeChange = std::chrono::nanoseconds(1);  // of place, a pose was where it was
 constexpr char kPoseTopic[] = "tool_pose";
 constexpr char kJointsTopic[] = "joint_states";
 constexpr std::uint32_t kPosesQueued =
@@ -124,16 +127,18 @@ void PoseInput::onMessage(const ros::MessageEvent<const geometry_msgs::PoseStamp
   countLost(event.getPublisherName(), msg.header.seq);
   const sweep_guard_core::Timestamps timestamps{fromMsg(msg.header.stamp), std::chrono::steady_clock::now()};
   if (!articulated_) record_.received(timestamps);
-  refuseWhatFails([&] { accept({timestamps, msg.header.frame_id, fromMsg(msg.pose)}); });
+  refuseWhatFails([&] { accept({timestamps, msg.header.frame_id, fromMsg(msg.pose)}, receipt()); });
 }
 
 void PoseInput::acceptJoints(const ros::MessageEvent<const sensor_msgs::JointState>& event) {
   const sensor_msgs::JointState& msg = *event.getConstMessage();
   const sweep_guard_core::Timestamps timestamps{fromMsg(msg.header.stamp), std::chrono::steady_clock::now()};
-  begin();
+  const Receipt now = receipt();
+  begin(now);
   requireStamp(timestamps.stamp);
   if (live_.initial().tool_source == ToolSource::kJointStates) useToolFrame(tool_frame_);
   articulated_->add(event.getPublisherName(), msg);
+  noteStamp(timestamps.stamp, now);
   pushKnownPoses(timestamps.received, checkpoint_);
   const std::string silence = articulated_->silence(timestamps.stamp);
   if (!silence.empty()) monitor_.fault(sweep_guard_core::kPoseStale, silence);
@@ -146,10 +151,8 @@ void PoseInput::pushKnownPoses(sweep_guard_core::SteadyTime received, const Chec
     if (articulated_->leavesOut()) monitor_.fault(sweep_guard_core::kPosesUnswept, kPassed);
     record_.received({known_.back().stamp, received});
     const std::string jump = jumpTo(known_.back());
-    for (ArticulatedTool::Pose& pose : known_) {
-      pose.jump = jump;
-      push(received, std::move(pose), checkpoint);
-    }
+    for (ArticulatedTool::Pose& pose : known_) pose.jump = jump;
+    push(known_, received, checkpoint);
   }
 }
 
@@ -191,12 +194,14 @@ void PoseInput::onTransforms() {
   if (!newest) return;
   if (waiting_ >= kPosesQueued)
     return monitor_.fault(sweep_guard_core::kPosesUnswept, "tool poses from tf were dropped: too many wait");
-  const ReceivedPose pose{{*newest, std::chrono::steady_clock::now()}, tool_frame_, Eigen::Isometry3d::Identity()};
+  const sweep_guard_core::Timestamps timestamps{*newest, std::chrono::steady_clock::now()};
+  const ReceivedPose pose{timestamps, tool_frame_, Eigen::Isometry3d::Identity()};
   ++waiting_;
-  thread_.post([this, pose] {
+  thread_.post([this, pose, now = receipt()] {
     --waiting_;
     if (!articulated_) record_.received(pose.timestamps);
-    refuseWhatFails([&] { accept(pose); });
+    const bool outdated = now.checkpoint.epoch < checkpoint_.epoch;  // joints have come meanwhile
+    refuseWhatFails([&] { accept(pose, outdated ? receipt() : now); });
   });
 }
 
@@ -206,19 +211,24 @@ void PoseInput::refuse(Reason reason, const std::string& message) {
   log_.error(std::to_string(reason), "tool pose on " + source_ + " refused: " + message);
 }
 
+PoseInput::Receipt PoseInput::receipt() const {
+  const Checkpoint checkpoint = monitor_.checkpoint();
+  return {checkpoint, frames_.staticChanges()};
+}
+
 // Of each input, before it is looked at.
-void PoseInput::begin() {
-  const sweep_guard_core::WarningMonitor::Checkpoint checkpoint = monitor_.checkpoint();
-  if (!checkpoint.continues(checkpoint_)) {
+void PoseInput::begin(const Receipt& receipt) {
+  if (!receipt.checkpoint.continues(checkpoint_)) {
     placeWaiting();  // what can be
     previous_stamp_.reset();
     waiting_poses_.clear();
     root_waits_since_.reset();
-    queued_before_.X_WF.reset();
+    placed_.X_WF.reset();
+    newest_stamp_.reset();
     if (articulated_) articulated_->reset();
     jumps_.reset();
   }
-  checkpoint_ = checkpoint;
+  checkpoint_ = receipt.checkpoint;
   // After the checkpoint: the sweep to this pose does not end the fault.
   if (hasSeveralPublishers()) {
     monitor_.fault(sweep_guard_core::kMultiPublisher, "several nodes publish tool poses on " + source_);
@@ -226,8 +236,16 @@ void PoseInput::begin() {
   reportConflict();
 }
 
-void PoseInput::accept(const ReceivedPose& pose) {
-  begin();
+// Of each input that is accepted. Nobody knows when static transforms changed: after what had come in before.
+void PoseInput::noteStamp(sweep_guard_core::Time stamp, const Receipt& receipt) {
+  if (receipt.static_changes > static_changes_ && !changed_after_)
+    changed_after_ = newest_stamp_.value_or(sweep_guard_core::Time());
+  static_changes_ = std::max(static_changes_, receipt.static_changes);
+  newest_stamp_ = std::max(newest_stamp_.value_or(stamp), stamp);
+}
+
+void PoseInput::accept(const ReceivedPose& pose, const Receipt& receipt) {
+  begin(receipt);
   const sweep_guard_core::Time stamp = pose.timestamps.stamp;
   requireStamp(stamp);
   const auto previous = waiting_poses_.empty() ? previous_stamp_ : waiting_poses_.back().pose.timestamps.stamp;
@@ -235,6 +253,7 @@ void PoseInput::accept(const ReceivedPose& pose) {
     throw PoseRefused(sweep_guard_core::kOutOfOrder, "stamp is older than the previous pose's");
   }
   useToolFrame(pose.frame);
+  noteStamp(stamp, receipt);
   const WaitingPose next{pose, checkpoint_};
   if (waiting_poses_.empty() && place(next, pose.timestamps.received)) return;
   waiting_poses_.push_back(next);
@@ -269,9 +288,9 @@ bool PoseInput::place(const WaitingPose& waiting, sweep_guard_core::SteadyTime k
   tool_given_in_ = waiting.pose.frame;
   const Eigen::Isometry3d X_WT = *X_WF * waiting.pose.X_FT;
   if (!articulated_) {
-    ArticulatedTool::Pose placed{stamp, X_WT, {}, {}};
-    placed.jump = jumpTo(placed);
-    push(known, std::move(placed), waiting.checkpoint);
+    known_.assign(1, {stamp, X_WT, {}, {}});
+    known_.back().jump = jumpTo(known_.back());
+    push(known_, known, waiting.checkpoint);
     return true;
   }
   articulated_->add(stamp, X_WT);
@@ -312,11 +331,13 @@ std::optional<Eigen::Isometry3d> PoseInput::placeRoot(sweep_guard_core::Time sta
 void PoseInput::onFramesMoved() {
   moving_frames_.sample();
   if (!waits_.exchange(false)) return;
-  thread_.post([this] {
-    placeWaiting();
-    if (!articulated_ || !root_waits_since_) return;
-    refuseWhatFails([this] { pushKnownPoses(std::chrono::steady_clock::now(), checkpoint_); });
-  });
+  thread_.post([this] { placeAllWaiting(); });
+}
+
+void PoseInput::placeAllWaiting() {
+  placeWaiting();
+  if (!articulated_ || !root_waits_since_) return;
+  refuseWhatFails([this] { pushKnownPoses(std::chrono::steady_clock::now(), checkpoint_); });
 }
 
 // Before what is placed by them: from then on, their changes are told.
@@ -334,58 +355,113 @@ void PoseInput::useWorkpieceFrames() {
   frames_.use("workpieces", fixed_frame_, *frames);
 }
 
-void PoseInput::push(sweep_guard_core::SteadyTime received, ArticulatedTool::Pose pose, const Checkpoint& checkpoint) {
-  auto& [stamp, X_WT, bodies, state, jump] = pose;
+// The way to the first pose after static transforms changed is swept where things were, then where they are. The transforms are
+// applied between the two; several changes count as one.
+void PoseInput::push(std::vector<ArticulatedTool::Pose>& poses, sweep_guard_core::SteadyTime received,
+                     const Checkpoint& checkpoint) {
   useWorkpieceFrames();
+  const sweep_guard_core::Time stamp = poses.back().stamp;
+  const bool changed = changed_after_ && *changed_after_ < stamp;
+  const bool twice = changed && placed_.X_WF;
+  const Checkpoint before = placed_.checkpoint;
+  way_.clear();
+  if (twice) way_.push_back(placed_);
+  for (ArticulatedTool::Pose& pose : poses) {
+    sweep_guard_core::PoseWithFrames placed = place(pose, received, checkpoint);
+    if (changed) way_.push_back(placed_);
+    if (twice) placed.stamp = std::min(placed.stamp, stamp - kBeforeChange);
+    if (!changed || twice) push(std::move(placed), twice ? before : checkpoint);
+  }
+  if (changed) pushWayAnew(stamp, twice ? way_.size() - 1 : 0, checkpoint);
+}
+
+sweep_guard_core::PoseWithFrames PoseInput::place(ArticulatedTool::Pose& pose, sweep_guard_core::SteadyTime received,
+                                                  const Checkpoint& checkpoint) {
+  auto& [stamp, X_WT, bodies, state, jump] = pose;
+  if (placed_.X_WF) stamp = std::max(stamp, placed_.pose.stamp);  // after a change that was applied late
   sweep_guard_core::PoseWithFrames placed{stamp, received, X_WT, {}, std::move(bodies), std::move(state)};
   placed.jump = std::move(jump);
   placed.X_WM = moving_frames_.locate(*workpiece_frames_, stamp);
-  if (frames_.staticChanges() != static_changes_) pushPlacedAnew(placed, checkpoint);
-  push(std::move(placed), checkpoint);
-}
-
-// Nobody knows when the static transforms changed: the way from the pose before to this one is swept where things were, then where
-// they are. The transforms are applied between the two.
-void PoseInput::pushPlacedAnew(sweep_guard_core::PoseWithFrames& pose, const Checkpoint& checkpoint) {
-  static_changes_ = frames_.staticChanges();
-  const QueuedBefore before = queued_before_;
-  const auto X_WF = poseIfKnown(frames_, fixed_frame_, tool_given_in_, pose.stamp);
-  if (moving_frames_.applyStaticChanges()) push(pose, checkpoint);
-  const auto X_WF_anew = poseIfKnown(frames_, fixed_frame_, tool_given_in_, pose.stamp);
-  if (X_WF && X_WF_anew) moveTool(*X_WF_anew * X_WF->inverse(), pose);
-  jumps_.reset();  // what is placed anew does not jump
-  pose.X_WM = moving_frames_.resting(*workpiece_frames_);
-  if (before.X_WF) pushBefore(before, pose, checkpoint);
-}
-
-// The pose before, where it is now. The frames that were placed anew do not move between the two.
-void PoseInput::pushBefore(const QueuedBefore& before, sweep_guard_core::PoseWithFrames& pose,
-                           const Checkpoint& checkpoint) {
-  const auto X_WF = poseIfKnown(frames_, fixed_frame_, before.frame, before.pose.stamp);
-  if (!X_WF) return;
-  sweep_guard_core::PoseWithFrames anew = before.pose;
-  anew.stamp = pose.stamp;
-  anew.received = pose.received;
-  anew.X_WM = pose.X_WM;
-  anew.anew =
-      sweep_guard_core::PlacedAnew{X_WF->matrix() != before.X_WF->matrix(), movedFrames(before.pose.X_WM, pose.X_WM)};
-  for (const std::string& frame : anew.anew->frames) pose.drifts[frame] = {};
-  moveTool(*X_WF * before.X_WF->inverse(), anew);
-  push(std::move(anew), checkpoint);
+  placed_.X_WF = poseIfKnown(frames_, fixed_frame_, tool_given_in_, stamp);
+  placed_.frame = tool_given_in_;
+  placed_.checkpoint = checkpoint;
+  placed_.pose = placed;
+  return placed;
 }
 
 void PoseInput::push(sweep_guard_core::PoseWithFrames pose, const Checkpoint& checkpoint) {
-  queued_before_.X_WF = poseIfKnown(frames_, fixed_frame_, tool_given_in_, pose.stamp);
-  queued_before_.frame = tool_given_in_;
-  queued_before_.pose = pose;
   if (queue_.push({std::move(pose), checkpoint})) return;
   monitor_.fault(sweep_guard_core::kPosesUnswept, "tool poses were dropped: too many wait to be swept");
 }
 
-// In the thread that places poses: none is placed half before, half after a change.
+// What is placed anew does not move on the way, but for the tool.
+// @param stamp  at which the way is repeated
+// @param anew   of its poses, so many did not move to where they are
+void PoseInput::pushWayAnew(sweep_guard_core::Time stamp, size_t anew, const Checkpoint& checkpoint) {
+  sweep_guard_core::PlacedAnew placed_anew;
+  placed_anew.frames = applyStaticChanges(stamp);
+  placed_anew.tool = moveWay();
+  const MovingFrames::Poses X_WM = moving_frames_.resting(*workpiece_frames_);
+  placed_anew.frames.merge(movedFrames(way_.front().pose.X_WM, X_WM));
+  const sweep_guard_core::SteadyTime received = way_.back().pose.received;
+  for (size_t i = 0; i < way_.size(); ++i) {
+    sweep_guard_core::PoseWithFrames& pose = way_[i].pose;
+    if (anew > 0) pose.stamp = stamp;
+    pose.received = received;
+    pose.X_WM = X_WM;
+    pose.jump.clear();
+    if (i < anew) pose.anew = placed_anew;
+    placed_anew.goes_on = true;
+    push(pose, checkpoint);
+  }
+  placed_ = way_.back();
+  placed_.pose.anew.reset();
+  placed_.X_WF = poseIfKnown(frames_, fixed_frame_, placed_.frame, stamp);
+}
+
+// Returns the frames that are followed and were placed anew, from this stamp on.
+std::set<std::string> PoseInput::applyStaticChanges(sweep_guard_core::Time from) {
+  changed_after_.reset();
+  std::set<std::string> anew;
+  const auto apply = [&] { anew = moving_frames_.applyStaticChanges(from); };
+  const auto X_WF = [this](sweep_guard_core::Time stamp) {
+    return poseIfKnown(frames_, fixed_frame_, tool_given_in_, stamp);
+  };
+  articulated_ ? articulated_->placeAnew(X_WF, apply) : apply();
+  jumps_.reset();  // what is placed anew does not jump
+  return anew;
+}
+
+// Returns whether the tool is elsewhere on the way. A pose that tf has forgotten moves as the one after it.
+bool PoseInput::moveWay() {
+  bool moved = false;
+  Eigen::Isometry3d motion_W = Eigen::Isometry3d::Identity();
+  for (auto placed = way_.rbegin(); placed != way_.rend(); ++placed) {
+    const auto X_WF = poseIfKnown(frames_, fixed_frame_, placed->frame, placed->pose.stamp);
+    if (X_WF && placed->X_WF) {
+      const bool rests = X_WF->matrix() == placed->X_WF->matrix();
+      motion_W = rests ? Eigen::Isometry3d::Identity() : *X_WF * placed->X_WF->inverse();
+      moved = moved || !rests;
+    }
+    moveTool(motion_W, placed->pose);
+    if (placed->X_WF) placed->X_WF = motion_W * *placed->X_WF;
+  }
+  return moved;
+}
+
+// In the thread that places poses: none is placed half before, half after a change. Those that wait come first.
 void PoseInput::applyLateChanges() {
-  if (!frames_.holdsBack()) return;
-  thread_.post([this] { moving_frames_.applyStaticChanges(live_.get()->limits.pose_timeout); });
+  const auto late = [this] { return frames_.holdsBack(live_.get()->limits.pose_timeout); };
+  if (!late()) return;
+  thread_.post([this, late] {
+    placeAllWaiting();
+    if (!waiting_poses_.empty() || root_waits_since_ || !late()) return;
+    static_changes_ = frames_.staticChanges();
+    if (!placed_.X_WF) return static_cast<void>(applyStaticChanges(newest_stamp_.value_or(sweep_guard_core::Time())));
+    way_.assign(1, placed_);
+    way_.back().pose.received = std::chrono::steady_clock::now();
+    pushWayAnew(placed_.pose.stamp + kBeforeChange, 1, checkpoint_);
+  });
 }
 
 }  // namespace sweep_guard_ros

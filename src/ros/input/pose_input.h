@@ -64,11 +64,17 @@ class PoseInput {
     ReceivedPose pose;
     Checkpoint checkpoint;
   };
-  // A pose that was queued, and where the frame was that it was given in. Keeps its memory from one pose to the next.
-  struct QueuedBefore {
+  // What was so when an input was received.
+  struct Receipt {
+    Checkpoint checkpoint;         // taken first: a pose that does not know of a change does not end its fault
+    std::uint64_t static_changes;  // as Frames counts them
+  };
+  // A pose, and where the frame was that it was given in. Keeps its memory from one pose to the next.
+  struct PlacedPose {
     sweep_guard_core::PoseWithFrames pose;
+    Checkpoint checkpoint;
     std::string frame;
-    std::optional<Eigen::Isometry3d> X_WF;  // empty: there is none
+    std::optional<Eigen::Isometry3d> X_WF;  // at its stamp; empty: not known, or there is no pose
   };
 
   void onMessage(const ros::MessageEvent<const geometry_msgs::PoseStamped>& event);
@@ -78,9 +84,11 @@ class PoseInput {
   void onTransforms();
   template <typename Accept>
   void refuseWhatFails(const Accept& accept);
-  void accept(const ReceivedPose& pose);
+  void accept(const ReceivedPose& pose, const Receipt& receipt);
   void acceptJoints(const ros::MessageEvent<const sensor_msgs::JointState>& event);
-  void begin();
+  Receipt receipt() const;
+  void begin(const Receipt& receipt);
+  void noteStamp(sweep_guard_core::Time stamp, const Receipt& receipt);
   void placeWaiting();
   bool placeNext();
   bool place(const WaitingPose& waiting, sweep_guard_core::SteadyTime known);
@@ -88,13 +96,18 @@ class PoseInput {
                                          sweep_guard_core::SteadyTime received);
   std::optional<Eigen::Isometry3d> placeRoot(sweep_guard_core::Time stamp);
   void onFramesMoved();
+  void placeAllWaiting();
   void useToolFrame(const std::string& frame);
   void useWorkpieceFrames();
   void pushKnownPoses(sweep_guard_core::SteadyTime received, const Checkpoint& checkpoint);
-  void push(sweep_guard_core::SteadyTime received, ArticulatedTool::Pose pose, const Checkpoint& checkpoint);
-  void pushPlacedAnew(sweep_guard_core::PoseWithFrames& pose, const Checkpoint& checkpoint);
-  void pushBefore(const QueuedBefore& before, sweep_guard_core::PoseWithFrames& pose, const Checkpoint& checkpoint);
+  void push(std::vector<ArticulatedTool::Pose>& poses, sweep_guard_core::SteadyTime received,
+            const Checkpoint& checkpoint);
+  sweep_guard_core::PoseWithFrames place(ArticulatedTool::Pose& pose, sweep_guard_core::SteadyTime received,
+                                         const Checkpoint& checkpoint);
   void push(sweep_guard_core::PoseWithFrames pose, const Checkpoint& checkpoint);
+  void pushWayAnew(sweep_guard_core::Time stamp, size_t anew, const Checkpoint& checkpoint);
+  std::set<std::string> applyStaticChanges(sweep_guard_core::Time from);
+  bool moveWay();
   std::string jumpTo(const ArticulatedTool::Pose& state);
   void refuse(sweep_guard_core::Reason reason, const std::string& message);
 
@@ -116,8 +129,12 @@ class PoseInput {
   std::set<std::string> tool_frames_;                              // that poses were given in
   std::string tool_given_in_;                                      // the newest of these
   std::shared_ptr<const std::set<std::string>> workpiece_frames_;  // that are in use
-  QueuedBefore queued_before_;
-  std::uint64_t static_changes_ = 0;  // before that pose
+  PlacedPose placed_;                                              // the newest
+  std::vector<PlacedPose> way_;                                    // on which a static transform changed
+  std::uint64_t static_changes_ = 0;                               // by the newest input
+  std::optional<sweep_guard_core::Time> newest_stamp_;             // of all inputs
+  // Static transforms that count have changed, and are not applied yet: the motion up to this stamp was before.
+  std::optional<sweep_guard_core::Time> changed_after_;
   JumpWatch jumps_;
   std::optional<sweep_guard_core::Time> last_transform_;  // used by the tf listener's thread only
   std::string publisher_;                                 // of the previous pose
