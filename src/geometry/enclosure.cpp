@@ -17,7 +17,7 @@ namespace {
 constexpr int kMaxRounds = 16;              // of leaving out what hangs on the rest of the surface
 constexpr std::uint32_t kMaxShells = 1000;  // closed parts among which cavities and overlaps are looked for
 constexpr double kMaxTests = 2e6;           // triangles looked at from the corners of one cavity
-constexpr size_t kCornersOfMost = 15;       // by which a part lies in another that it does not cross
+constexpr size_t kCornersOfMost = 7;        // by which a part lies in another that it does not cross
 constexpr size_t kMaxCaps = 1024;           // or a quarter of the triangles
 
 using Group = EdgeGroups::Group;

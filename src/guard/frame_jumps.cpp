@@ -18,7 +18,10 @@ bool isRepeated(const PoseHistory& history, size_t i) {
 // Returns the newest pose that is older than pose `i` by 20 ms; if there is none, the first that the tool has moved from.
 size_t longBefore(const PoseHistory& history, size_t i) {
   size_t before = i - 1;
-  while (before > 0 && history[i].stamp - history[before].stamp < kJumpTime && !isRepeated(history, before)) --before;
+  while (before > 0 && history[i].stamp - history[before].stamp < kJumpTime && !history[before].anew) --before;
+  if (!history[before].anew) return before;
+  const Time stamp = history[before].stamp;
+  while (before + 1 < i && history[before + 1].stamp == stamp) ++before;
   return before;
 }
 

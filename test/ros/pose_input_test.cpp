@@ -3,8 +3,13 @@
 
 #include <gtest/gtest.h>
 #include <ros/ros.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <boost/make_shared.hpp>
+#include <future>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include "sweep_guard/ros/conversions.h"
 
@@ -19,33 +24,138 @@ boost::shared_ptr<geometry_msgs::PoseStamped> poseIn(const std::string& frame, r
   return pose;
 }
 
-// 20 s at 1 kHz are published before the first pose is taken from the queue.
-TEST(PoseInputTest, NoPoseOfALongBacklogIsLost) {
-  constexpr int kPoses = 20000;
-  ros::NodeHandle node;
-  const ros::Time end = ros::Time::now();
-  const Parameters parameters = loadParameters(ros::NodeHandle("~"));
-  Frames frames(node, parameters.max_message_size, [](const std::string&, const std::string&) {});
-  sweep_guard_core::WarningMonitor monitor(parameters.limits);
-  const sweep_guard_core::WorkpieceStore workpieces;
-  WorkQueue queue;
-  sweep_guard_core::FrameMotionStore frame_motions;
-  Supervisor supervisor(Process::kShared);
-  const LiveParameters live(parameters);
-  PoseInput input(node, live, {frames, workpieces, monitor, queue, frame_motions});
-  const ros::Publisher publisher = node.advertise<geometry_msgs::PoseStamped>("tool_pose", 1);
-  ASSERT_EQ(publisher.getNumSubscribers(), 1U);
-  input.start(supervisor);
-  for (int i = 1; i <= kPoses; ++i) {
-    publisher.publish(poseIn(parameters.fixed_frame, end - ros::Duration(0.001 * (kPoses - i))));
+// No load delays anything that long.
+Parameters patient() {
+  Parameters parameters = loadParameters(ros::NodeHandle("~"));
+  parameters.limits.pose_timeout = std::chrono::minutes(1);
+  return parameters;
+}
+
+class PoseInputTest : public testing::Test {
+ protected:
+  PoseInputTest() { input_.start(supervisor_); }
+
+  // Takes from the queue up to the pose of this stamp.
+  std::vector<sweep_guard_core::PoseWithFrames> takeUpTo(ros::Time stamp) {
+    std::vector<sweep_guard_core::PoseWithFrames> taken;
+    WorkQueue::Work work;
+    while (taken.empty() || taken.back().anew || taken.back().stamp != fromMsg(stamp)) {
+      queue_.take(work);
+      for (const QueuedPose& queued : work.poses) taken.push_back(queued.pose);
+    }
+    return taken;
   }
-  size_t poses = 0;
-  WorkQueue::Work work;
-  do {
-    queue.take(work);
-    poses += work.poses.size();
-  } while (work.poses.back().pose.stamp != fromMsg(end));
-  EXPECT_EQ(poses, static_cast<size_t>(kPoses));
+
+  ros::NodeHandle node_;
+  const Parameters parameters_ = patient();
+  std::promise<void> changed_;
+  Frames frames_{node_, parameters_.max_message_size,
+                 [this](const std::string&, const std::string&) { changed_.set_value(); }};
+  sweep_guard_core::WarningMonitor monitor_{parameters_.limits};
+  const sweep_guard_core::WorkpieceStore workpieces_;
+  WorkQueue queue_;
+  sweep_guard_core::FrameMotionStore frame_motions_;
+  Supervisor supervisor_{Process::kShared};
+  const LiveParameters live_{parameters_};
+  PoseInput input_{node_, live_, {frames_, workpieces_, monitor_, queue_, frame_motions_}};
+  const ros::Publisher publisher_ = node_.advertise<geometry_msgs::PoseStamped>("tool_pose", 1);
+};
+
+// 20 s at 1 kHz are published before the first pose is taken from the queue.
+TEST_F(PoseInputTest, NoPoseOfALongBacklogIsLost) {
+  constexpr int kPoses = 20000;
+  const ros::Time end = ros::Time::now();
+  ASSERT_EQ(publisher_.getNumSubscribers(), 1U);
+  for (int i = 1; i <= kPoses; ++i) {
+    publisher_.publish(poseIn(parameters_.fixed_frame, end - ros::Duration(0.001 * (kPoses - i))));
+  }
+  EXPECT_EQ(takeUpTo(end).size(), static_cast<size_t>(kPoses));
+}
+
+class StaticBaseTest : public PoseInputTest {
+ protected:
+  StaticBaseTest() {
+    frames_.start(supervisor_);
+    transforms_ = node_.advertise<tf2_msgs::TFMessage>("/tf", 10);
+    static_transforms_ = node_.advertise<tf2_msgs::TFMessage>("/tf_static", 10);
+  }
+
+  static tf2_msgs::TFMessage transform(const std::string& parent, const std::string& child, ros::Time stamp, double z) {
+    tf2_msgs::TFMessage message;
+    geometry_msgs::TransformStamped& one = message.transforms.emplace_back();
+    one.header.frame_id = parent;
+    one.header.stamp = stamp;
+    one.child_frame_id = child;
+    one.transform.translation.z = z;
+    one.transform.rotation.w = 1.0;
+    return message;
+  }
+  void placeBase(double z) { static_transforms_.publish(transform(parameters_.fixed_frame, "base", ros::Time(), z)); }
+  void moveArm(ros::Time stamp) { transforms_.publish(transform("base", "arm", stamp, 0.0)); }
+  void publishPose(const std::string& frame, ros::Time stamp, double z) {
+    const auto pose = poseIn(frame, stamp);
+    pose->pose.position.z = z;
+    publisher_.publish(pose);
+  }
+  void awaitFrame(const std::string& frame) const {
+    while (!frames_.newest(parameters_.fixed_frame, frame)) std::this_thread::yield();
+  }
+
+  struct Placed {
+    double z;
+    bool anew;
+    bool operator==(const Placed& other) const { return z == other.z && anew == other.anew; }
+  };
+  std::vector<Placed> placedUpTo(ros::Time stamp) {
+    std::vector<Placed> placed;
+    for (const auto& pose : takeUpTo(stamp)) placed.push_back({pose.X_WT.translation().z(), pose.anew.has_value()});
+    return placed;
+  }
+
+  const ros::Time now_ = ros::Time::now();
+  ros::Publisher transforms_;
+  ros::Publisher static_transforms_;
+};
+
+TEST_F(StaticBaseTest, TheWayToThePoseAfterItIsInBothPlaces) {
+  placeBase(0.0);
+  awaitFrame("base");
+  publishPose("base", now_, 0.5);
+  takeUpTo(now_);
+  placeBase(3.0);
+  changed_.get_future().wait();
+  const ros::Time next = now_ + ros::Duration(0.01);
+  publishPose("base", next, -0.5);
+  const auto poses = takeUpTo(next);
+  ASSERT_EQ(poses.size(), 3U);
+  EXPECT_EQ(poses[0].X_WT.translation().z(), -0.5);
+  EXPECT_EQ(poses[0].stamp, fromMsg(next) - std::chrono::nanoseconds(1));
+  EXPECT_EQ(poses[1].X_WT.translation().z(), 3.5);
+  ASSERT_TRUE(poses[1].anew);
+  EXPECT_TRUE(poses[1].anew->tool);
+  EXPECT_EQ(poses[1].stamp, fromMsg(next));
+  EXPECT_EQ(poses[2].X_WT.translation().z(), 2.5);
+}
+
+// Both wait for the transform of the arm: the first came before the change, the second after it.
+TEST_F(StaticBaseTest, APoseThatWaitedIsWhereThingsWereWhenItCame) {
+  placeBase(0.0);
+  moveArm(now_);
+  awaitFrame("arm");
+  publishPose("arm", now_, 0.5);
+  takeUpTo(now_);
+  const ros::Time first = now_ + ros::Duration(0.01);
+  const ros::Time second = now_ + ros::Duration(0.02);
+  publishPose("arm", first, 0.1);
+  const auto is_refused = [&] { return monitor_.checkpoint().faults > 0; };
+  publishPose("arm", now_, 0.5);  // is older: a refusal that tells that the first was received
+  while (!is_refused()) std::this_thread::yield();
+  placeBase(3.0);
+  changed_.get_future().wait();
+  publishPose("arm", second, -0.5);
+  moveArm(second);
+  const std::vector<Placed> expected = {{0.1, false}, {-0.5, false}, {3.1, true}, {2.5, false}};
+  EXPECT_EQ(placedUpTo(second), expected);
 }
 
 }  // namespace
