@@ -268,7 +268,9 @@ TEST_F(StaticChangeTest, OfTheToolsOwnFrameCountsInBothPlaces) {
     probe().tick(0.01);
     auto pose = poseAt({0.0, 0.0, z}, probe().time());
     pose.header.frame_id = "base";
-    return probe().move(pose).objects.size();
+    probe().forgetContacts();
+    probe().publish(pose);
+    return contactCount(probe().awaitContactsUpTo(probe().time()));
   };
   move_in_base(0.5);
   EXPECT_EQ(move_in_base(0.5), 0U);

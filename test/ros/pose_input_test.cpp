@@ -48,6 +48,7 @@ class PoseInputTest : public testing::Test {
 
   ros::NodeHandle node_;
   const Parameters parameters_ = patient();
+  Supervisor supervisor_{Process::kShared};  // before all that has a thread
   std::promise<void> changed_;
   Frames frames_{node_, parameters_.max_message_size,
                  [this](const std::string&, const std::string&) { changed_.set_value(); }};
@@ -55,7 +56,6 @@ class PoseInputTest : public testing::Test {
   const sweep_guard_core::WorkpieceStore workpieces_;
   WorkQueue queue_;
   sweep_guard_core::FrameMotionStore frame_motions_;
-  Supervisor supervisor_{Process::kShared};
   const LiveParameters live_{parameters_};
   PoseInput input_{node_, live_, {frames_, workpieces_, monitor_, queue_, frame_motions_}};
   const ros::Publisher publisher_ = node_.advertise<geometry_msgs::PoseStamped>("tool_pose", 1);
