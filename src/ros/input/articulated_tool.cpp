@@ -99,6 +99,7 @@ void ArticulatedTool::placeAnew(const PoseOfFrame& X_WF, const std::function<voi
   std::vector<Time> stamps = timeline_.rootStamps();
   if (stamp_) stamps.push_back(*stamp_);
   std::vector<std::optional<Eigen::Isometry3d>> before;
+  before.reserve(stamps.size());
   for (const Time stamp : stamps) before.push_back(X_WF(stamp));
   place();
   std::vector<Eigen::Isometry3d> motions_W(stamps.size(), Eigen::Isometry3d::Identity());

@@ -321,7 +321,7 @@ std::optional<Eigen::Isometry3d> PoseInput::place(const std::string& frame, swee
 std::optional<Eigen::Isometry3d> PoseInput::placeRoot(sweep_guard_core::Time stamp) {
   const sweep_guard_core::SteadyTime since = root_waits_since_.value_or(std::chrono::steady_clock::now());
   root_waits_since_.reset();
-  const auto X_WT = place(tool_frame_, stamp, since);
+  auto X_WT = place(tool_frame_, stamp, since);
   if (!X_WT) root_waits_since_ = since;
   if (X_WT) tool_given_in_ = tool_frame_;
   return X_WT;
