@@ -169,7 +169,7 @@ void PoseInput::countLost(const std::string& publisher, std::uint32_t sequence) 
   if (counts) {
     const std::uint32_t lost = sequence - sequence_ - 1;
     lost_ += lost;
-    monitor_.posesLost(std::to_string(lost) + " tool poses were lost on the way", std::chrono::steady_clock::now());
+    monitor_.posesLost(std::to_string(lost) + " tool poses were lost on the path", std::chrono::steady_clock::now());
   }
   if (publisher != publisher_) publisher_ = publisher;
   sequence_ = sequence;
@@ -355,7 +355,7 @@ void PoseInput::useWorkpieceFrames() {
   frames_.use("workpieces", fixed_frame_, *frames);
 }
 
-// The way to the first pose after static transforms changed is swept where things were, then where they are. The transforms are
+// The path to the first pose after static transforms changed is swept where things were, then where they are. The transforms are
 // applied between the two; several changes count as one.
 void PoseInput::push(std::vector<ArticulatedTool::Pose>& poses, sweep_guard_core::SteadyTime received,
                      const Checkpoint& checkpoint) {
@@ -364,15 +364,15 @@ void PoseInput::push(std::vector<ArticulatedTool::Pose>& poses, sweep_guard_core
   const bool changed = changed_after_ && *changed_after_ < stamp;
   const bool twice = changed && placed_.X_WF;
   const Checkpoint before = placed_.checkpoint;
-  way_.clear();
-  if (twice) way_.push_back(placed_);
+  path_.clear();
+  if (twice) path_.push_back(placed_);
   for (ArticulatedTool::Pose& pose : poses) {
     sweep_guard_core::PoseWithFrames placed = place(pose, received, checkpoint);
-    if (changed) way_.push_back(placed_);
+    if (changed) path_.push_back(placed_);
     if (twice) placed.stamp = std::min(placed.stamp, stamp - kBeforeChange);
     if (!changed || twice) push(std::move(placed), twice ? before : checkpoint);
   }
-  if (changed) pushWayAnew(stamp, twice ? way_.size() - 1 : 0, checkpoint);
+  if (changed) pushPathAnew(stamp, twice ? path_.size() - 1 : 0, checkpoint);
 }
 
 sweep_guard_core::PoseWithFrames PoseInput::place(ArticulatedTool::Pose& pose, sweep_guard_core::SteadyTime received,
@@ -394,18 +394,18 @@ void PoseInput::push(sweep_guard_core::PoseWithFrames pose, const Checkpoint& ch
   monitor_.fault(sweep_guard_core::kPosesUnswept, "tool poses were dropped: too many wait to be swept");
 }
 
-// What is placed anew does not move on the way, but for the tool.
-// @param stamp  at which the way is repeated
+// What is placed anew does not move on the path, but for the tool.
+// @param stamp  at which the path is repeated
 // @param anew   of its poses, so many did not move to where they are
-void PoseInput::pushWayAnew(sweep_guard_core::Time stamp, size_t anew, const Checkpoint& checkpoint) {
+void PoseInput::pushPathAnew(sweep_guard_core::Time stamp, size_t anew, const Checkpoint& checkpoint) {
   sweep_guard_core::PlacedAnew placed_anew;
   placed_anew.frames = applyStaticChanges(stamp);
-  placed_anew.tool = moveWay();
+  placed_anew.tool = movePath();
   const MovingFrames::Poses X_WM = moving_frames_.resting(*workpiece_frames_);
-  placed_anew.frames.merge(movedFrames(way_.front().pose.X_WM, X_WM));
-  const sweep_guard_core::SteadyTime received = way_.back().pose.received;
-  for (size_t i = 0; i < way_.size(); ++i) {
-    sweep_guard_core::PoseWithFrames& pose = way_[i].pose;
+  placed_anew.frames.merge(movedFrames(path_.front().pose.X_WM, X_WM));
+  const sweep_guard_core::SteadyTime received = path_.back().pose.received;
+  for (size_t i = 0; i < path_.size(); ++i) {
+    sweep_guard_core::PoseWithFrames& pose = path_[i].pose;
     if (anew > 0) pose.stamp = stamp;
     pose.received = received;
     pose.X_WM = X_WM;
@@ -414,7 +414,7 @@ void PoseInput::pushWayAnew(sweep_guard_core::Time stamp, size_t anew, const Che
     placed_anew.goes_on = true;
     push(pose, checkpoint);
   }
-  placed_ = way_.back();
+  placed_ = path_.back();
   placed_.pose.anew.reset();
   placed_.X_WF = poseIfKnown(frames_, fixed_frame_, placed_.frame, stamp);
 }
@@ -432,11 +432,11 @@ std::set<std::string> PoseInput::applyStaticChanges(sweep_guard_core::Time from)
   return anew;
 }
 
-// Returns whether the tool is elsewhere on the way. A pose that tf has forgotten moves as the one after it.
-bool PoseInput::moveWay() {
+// Returns whether the tool is elsewhere on the path. A pose that tf has forgotten moves as the one after it.
+bool PoseInput::movePath() {
   bool moved = false;
   Eigen::Isometry3d motion_W = Eigen::Isometry3d::Identity();
-  for (auto placed = way_.rbegin(); placed != way_.rend(); ++placed) {
+  for (auto placed = path_.rbegin(); placed != path_.rend(); ++placed) {
     const auto X_WF = poseIfKnown(frames_, fixed_frame_, placed->frame, placed->pose.stamp);
     if (X_WF && placed->X_WF) {
       const bool rests = X_WF->matrix() == placed->X_WF->matrix();
@@ -458,9 +458,9 @@ void PoseInput::applyLateChanges() {
     if (!waiting_poses_.empty() || root_waits_since_ || !late()) return;
     static_changes_ = frames_.staticChanges();
     if (!placed_.X_WF) return static_cast<void>(applyStaticChanges(newest_stamp_.value_or(sweep_guard_core::Time())));
-    way_.assign(1, placed_);
-    way_.back().pose.received = std::chrono::steady_clock::now();
-    pushWayAnew(placed_.pose.stamp + kBeforeChange, 1, checkpoint_);
+    path_.assign(1, placed_);
+    path_.back().pose.received = std::chrono::steady_clock::now();
+    pushPathAnew(placed_.pose.stamp + kBeforeChange, 1, checkpoint_);
   });
 }
 

@@ -70,7 +70,7 @@ class PoseInput {
     std::uint64_t static_changes;  // as Frames counts them
   };
   // A pose, and where the frame was that it was given in. Keeps its memory from one pose to the next.
-  struct PlacedPose {
+  struct PoseInFrame {
     sweep_guard_core::PoseWithFrames pose;
     Checkpoint checkpoint;
     std::string frame;
@@ -105,9 +105,9 @@ class PoseInput {
   sweep_guard_core::PoseWithFrames place(ArticulatedTool::Pose& pose, sweep_guard_core::SteadyTime received,
                                          const Checkpoint& checkpoint);
   void push(sweep_guard_core::PoseWithFrames pose, const Checkpoint& checkpoint);
-  void pushWayAnew(sweep_guard_core::Time stamp, size_t anew, const Checkpoint& checkpoint);
+  void pushPathAnew(sweep_guard_core::Time stamp, size_t anew, const Checkpoint& checkpoint);
   std::set<std::string> applyStaticChanges(sweep_guard_core::Time from);
-  bool moveWay();
+  bool movePath();
   std::string jumpTo(const ArticulatedTool::Pose& state);
   void refuse(sweep_guard_core::Reason reason, const std::string& message);
 
@@ -129,8 +129,8 @@ class PoseInput {
   std::set<std::string> tool_frames_;                              // that poses were given in
   std::string tool_given_in_;                                      // the newest of these
   std::shared_ptr<const std::set<std::string>> workpiece_frames_;  // that are in use
-  PlacedPose placed_;                                              // the newest
-  std::vector<PlacedPose> way_;                                    // on which a static transform changed
+  PoseInFrame placed_;                                             // the newest
+  std::vector<PoseInFrame> path_;                                  // on which a static transform changed
   std::uint64_t static_changes_ = 0;                               // by the newest input
   std::optional<sweep_guard_core::Time> newest_stamp_;             // of all inputs
   // Static transforms that count have changed, and are not applied yet: the motion up to this stamp was before.

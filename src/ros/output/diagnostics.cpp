@@ -160,9 +160,10 @@ void Diagnostics::workpieces(Status& status) const {
     if (workpiece->mesh_M.rounding() >= kWorthSaying)
       status.mergeSummary(DiagnosticStatus::WARN, roundingText(*workpiece));
     if (workpiece->mesh_M.closed() && workpiece->mesh_M.enclosure().partsOverlap())
-      status.add("force of '" + workpiece->id + "'",
-                 "not valid while the tool is in it: closed parts of its surface overlap, and count twice there, or are too "
-                 "many to tell");
+      status.add(
+          "force of '" + workpiece->id + "'",
+          "not valid while the tool is in it: closed parts of its surface overlap, and count twice there, or are too "
+          "many to tell");
     if (workpiece->mesh_M.openEdges() == 0) continue;
     std::string open;
     sweep_guard_core::appendOpenSurface(workpiece->id, workpiece->mesh_M.openEdges(), open);
