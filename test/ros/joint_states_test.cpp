@@ -143,7 +143,9 @@ class BaseChangeTest : public JointStatesTest {
     JointStatesTest::TearDown();
   }
 
+  // What was published before is swept before.
   void change(double z) {
+    jointProbe().awaitContactsUpTo(jointProbe().time());
     jointProbe().skipWarnings();
     placeBase(z);
     jointProbe().awaitWarning([](const Warning& next) { return (next.reasons & Warning::TIME_JUMP) != 0; });
