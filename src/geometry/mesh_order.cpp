@@ -210,8 +210,10 @@ MeshOrder orderOf(const std::vector<float>& positions, const std::vector<Triangl
 }
 
 void place(const std::vector<std::uint32_t>& places, const std::vector<float>& sent, std::vector<float>& kept) {
-  for (size_t i = 0; i < places.size(); ++i) {
-    std::copy_n(sent.data() + 3 * i, 3, kept.data() + 3 * static_cast<size_t>(places[i]));
+  const float* position = sent.data();
+  for (const std::uint32_t kept_as : places) {
+    float* const to = kept.data() + 3 * static_cast<size_t>(kept_as);
+    for (size_t axis = 0; axis < 3; ++axis) to[axis] = *position++;
   }
 }
 
