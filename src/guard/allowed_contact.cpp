@@ -10,22 +10,6 @@ std::string describe(const AllowedPair& pair) {
   return link + " with " + (pair.mesh_id == AllowedPair::kAny ? "any workpiece" : "'" + pair.mesh_id + "'");
 }
 
-AllowedPieces::AllowedPieces(const Tool& tool, const AllowedPairs& pairs, const std::string& mesh_id) {
-  const auto& pieces = tool.pieces();
-  for (const AllowedPair& pair : pairs) {
-    if (!pair.concerns(mesh_id)) continue;
-    for (size_t piece = 0; piece < pieces.size(); ++piece) {
-      if (!pair.holds(pieces[piece].link)) continue;
-      pieces_.resize(pieces.size());
-      pieces_[piece] = true;
-    }
-  }
-}
-
-bool AllowedPieces::all() const {
-  return !empty() && std::all_of(pieces_.begin(), pieces_.end(), [](bool allowed) { return allowed; });
-}
-
 AllowedMatches::AllowedMatches(const AllowedPairs& pairs) {
   for (const AllowedPair& pair : pairs) matches_.push_back({pair, pair.mesh_id == AllowedPair::kAny});
 }

@@ -39,6 +39,10 @@ double supportDeviation(const ConvexShape& shape, const Eigen::Matrix3d& R_MT, c
   return std::max(touching, other - gap / kMaxDeviations);
 }
 
+bool isIntended(IntendedTriangles* intended, std::uint32_t triangle, const TriangleMesh& mesh_M) {
+  return intended != nullptr && intended->contains(triangle, mesh_M);
+}
+
 }  // namespace
 
 double contactProbability(double deviations) {
@@ -100,7 +104,7 @@ ClearanceMeter::ClearanceMeter(double max_deviations, const simd::Kernels& kerne
 // Moves the planes out as far as the nearest vertex: the fewer triangles are within, the fewer have to be compared. That
 // vertex may belong to no triangle of the submesh: if there is nothing within, moves them out all the way.
 std::optional<Clearance> ClearanceMeter::measure(const Submesh& submesh, const SweptVolume& swept_M,
-                                                 const PerHalfSpace& sigmas, const IsLeftOut& is_left_out,
+                                                 const PerHalfSpace& sigmas, IntendedTriangles* intended,
                                                  double at_most) {
   beat();
   candidates_.clear();
@@ -109,7 +113,7 @@ std::optional<Clearance> ClearanceMeter::measure(const Submesh& submesh, const S
   const double reach = reachOfVertices(submesh, swept_M, sigmas, at_most, kTolerance);
   const Planes planes(submesh.mesh_M(), swept_M, sigmas);
   const auto nearestUpTo = [&](double limit) {
-    collectCandidates(within(limit, submesh, swept_M, sigmas), limit, planes, is_left_out);
+    collectCandidates(within(limit, submesh, swept_M, sigmas), limit, planes, intended);
     return nearestWithin(limit, planes);
   };
   auto clearance = nearestUpTo(reach);
@@ -124,7 +128,7 @@ std::optional<Clearance> ClearanceMeter::measure(const Submesh& submesh, const S
 }
 
 bool ClearanceMeter::isNear(const Submesh& submesh, const SweptVolume& swept_M, const PerHalfSpace& sigmas,
-                            const IsLeftOut& is_left_out) {
+                            IntendedTriangles* intended) {
   beat();
   if (submesh.empty()) return false;
   const double reach = reachOfVertices(submesh, swept_M, sigmas, max_deviations_, kTolerance);
@@ -133,7 +137,7 @@ bool ClearanceMeter::isNear(const Submesh& submesh, const SweptVolume& swept_M, 
     const auto& remaining = within(limit, submesh, swept_M, sigmas);
     const auto any = [&](const auto& test) {
       return std::any_of(remaining.begin(), remaining.end(), [&](const RemainingTriangle& triangle) {
-        return test(triangle) && !(is_left_out && is_left_out(triangle.triangle));
+        return test(triangle) && !isIntended(intended, triangle.triangle, submesh.mesh_M());
       });
     };
     return any([](const RemainingTriangle& triangle) { return triangle.met; }) ||
@@ -250,12 +254,12 @@ bool ClearanceMeter::reaches(double z, const Corners& corners, const Planes& pla
 
 // Collects the triangles that may need the fewest deviations, in this order. At the limit, a corner of one is enclosed.
 void ClearanceMeter::collectCandidates(const std::vector<RemainingTriangle>& remaining, double reach,
-                                       const Planes& planes, const IsLeftOut& is_left_out) {
+                                       const Planes& planes, IntendedTriangles* intended) {
   double limit = reach + kTolerance;
   candidates_.clear();
   for (const RemainingTriangle& triangle : remaining) {
     const NearTriangle candidate = planes.candidate(triangle.triangle);
-    if (candidate.at_least > limit || (is_left_out && is_left_out(triangle.triangle))) continue;
+    if (candidate.at_least > limit || isIntended(intended, triangle.triangle, planes.mesh_M)) continue;
     candidates_.push_back(candidate);
     limit = std::min(limit, candidate.at_most);
   }

@@ -2,11 +2,11 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <vector>
 
 #include "detection/culler.h"
+#include "guard/intended_contact.h"
 #include "guard/triangle_set.h"
 #include "sweep_guard/geometry/swept_volume.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
@@ -42,9 +42,6 @@ struct Clearance {
   double deviations = 0.0;
 };
 
-/// Returns whether a triangle is left out.
-using IsLeftOut = std::function<bool(std::uint32_t triangle)>;
-
 /// Measures the clearance of an uncertain volume. Keeps its buffers between calls.
 class ClearanceMeter {
  public:
@@ -55,15 +52,15 @@ class ClearanceMeter {
   /// -kMaxDeviations. Looks first at the block of vertices that may be nearest, so that few triangles are compared.
   /// @param submesh      other triangles are not tested
   /// @param deviations   from planeDeviations()
-  /// @param is_left_out  triangles that are not tested either; empty: none
+  /// @param intended     triangles that are not tested either; null: none
   /// @param at_most      >= 0; larger clearances are not measured either, unless there is a triangle that no plane
   ///     separates
   std::optional<Clearance> measure(const Submesh& submesh, const SweptVolume& swept_M, const PerHalfSpace& deviations,
-                                   const IsLeftOut& is_left_out = {}, double at_most = kMaxDeviations);
+                                   IntendedTriangles* intended = nullptr, double at_most = kMaxDeviations);
 
   /// Returns whether measure() would find a clearance. Takes a fraction of its time.
   bool isNear(const Submesh& submesh, const SweptVolume& swept_M, const PerHalfSpace& deviations,
-              const IsLeftOut& is_left_out = {});
+              IntendedTriangles* intended = nullptr);
 
   /// Returns true if isNear() would, and also if a vertex is near that belongs to no triangle of the submesh. Takes a
   /// fraction of its time.
@@ -92,7 +89,7 @@ class ClearanceMeter {
   const std::vector<RemainingTriangle>& within(double reach, const Submesh& submesh, const SweptVolume& swept_M,
                                                PerHalfSpace sigmas);
   void collectCandidates(const std::vector<RemainingTriangle>& remaining, double reach, const Planes& planes,
-                         const IsLeftOut& is_left_out);
+                         IntendedTriangles* intended);
   std::optional<Clearance> nearestWithin(double reach, const Planes& planes) const;
   static bool reaches(double z, const Corners& corners, const Planes& planes);
   static double deviationsTo(double nearest, const NearTriangle& candidate, const Planes& planes);

@@ -6,6 +6,7 @@
 
 #include "common/floating_point.h"
 #include "detection/placed_core.h"
+#include "guard/moving_mesh.h"
 #include "sweep_guard/geometry/separation.h"
 #include "sweep_guard/geometry/swept_volume.h"
 
@@ -27,10 +28,6 @@ std::optional<Eigen::Vector3d> unitNormal(const Corners& p) {
 
 double highest(const Eigen::Vector3d& direction, const Corners& p, const Eigen::Vector3d& base) {
   return std::max({direction.dot(p[0] - base), direction.dot(p[1] - base), direction.dot(p[2] - base)});
-}
-
-bool holds(const Intention& region, std::uint32_t triangle) {
-  return std::binary_search(region.triangles.begin(), region.triangles.end(), triangle);
 }
 
 constexpr double kLeft = 0.01;  // [m]
@@ -92,11 +89,17 @@ IntendedTriangles::IntendedTriangles(std::vector<const Intention*> regions, cons
 bool IntendedTriangles::contains(std::uint32_t triangle, const MovingTriangle& triangle_M) {
   std::optional<double> depth;
   return std::any_of(regions_.begin(), regions_.end(), [&](const Intention* region) {
-    if (!holds(*region, triangle)) return false;
+    if (!region->holds(triangle)) return false;
     if (isProvenWithin(region->depth, triangle_M)) return true;
     if (!depth) depth = depthBehind(triangle_M).value_or(kInfinity);
     return *depth <= region->depth;
   });
+}
+
+bool IntendedTriangles::contains(std::uint32_t triangle, const TriangleMesh& at_rest_M) {
+  const auto holds = [&](const Intention* region) { return region->holds(triangle); };
+  return std::any_of(regions_.begin(), regions_.end(), holds) &&
+         contains(triangle, MovingMesh(at_rest_M).triangle(triangle));
 }
 
 // Of neighbors with nearly the same normal: no point of the tool is farther from the base than the radius.
@@ -129,32 +132,6 @@ double IntendedTriangles::reachBehind(const Eigen::Vector3d& normal) {
   }
   last_reach_ += normal.dot(base_M_);
   return last_reach_;
-}
-
-IntendedContact::IntendedContact(const Tool& tool, const Intentions& all, const Workpiece& workpiece) : tool_(&tool) {
-  for (const Intention& intention : all) {
-    if (intention.concerns(workpiece)) intentions_.push_back(&intention);
-  }
-}
-
-IntendedTriangles IntendedContact::trianglesOf(size_t piece, const std::vector<Motion>& sub_motions_M,
-                                               double margin) const {
-  if (empty()) return {};
-  const std::string& link = tool_->pieces()[piece].link;
-  std::vector<const Intention*> regions;
-  std::copy_if(intentions_.begin(), intentions_.end(), std::back_inserter(regions),
-               [&](const Intention* intention) { return intention->allows(link); });
-  if (regions.empty()) return {};
-  return {std::move(regions), *tool_, link, sub_motions_M, margin};
-}
-
-double IntendedContact::allowedDepth(size_t piece, std::uint32_t triangle) const {
-  double depth = 0.0;
-  for (const Intention* intention : intentions_) {
-    if (!intention->allows(tool_->pieces()[piece].link) || !holds(*intention, triangle)) continue;
-    depth = std::max(depth, intention->depth);
-  }
-  return depth;
 }
 
 void IntendedTouches::update(const SweepReport& report, const PoseWithFrames& pose, const Eigen::Isometry3d& X_WB,

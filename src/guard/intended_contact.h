@@ -31,6 +31,7 @@ class IntendedTriangles {
   /// Returns whether the link may touch a triangle: the triangle is in a region, and depthBehind() is at most the depth
   /// of this region.
   bool contains(std::uint32_t triangle, const MovingTriangle& triangle_M);
+  bool contains(std::uint32_t triangle, const TriangleMesh& at_rest_M);  ///< the same, of a mesh at rest
 
   /// Returns an upper bound on how far the pieces of the link, with the margin, reach behind the plane of a triangle
   /// during the motion [m]; negative if they stay in front of it. The normal is that of the triangle before and after its
@@ -56,32 +57,6 @@ class IntendedTriangles {
   double last_reach_ = 0.0;  // reachBehind(last_normal_)
 };
 
-/// Holds what is intended with one workpiece.
-class IntendedContact {
- public:
-  /// Nothing is intended.
-  IntendedContact() = default;
-  /// @param tool, all  must outlive this
-  IntendedContact(const Tool& tool, const Intentions& all, const Workpiece& workpiece);
-
-  bool empty() const { return intentions_.empty(); }  ///< nothing is intended
-
-  /// Returns the triangles that the link of a piece is meant to touch during a motion. Arguments as for
-  /// IntendedTriangles.
-  IntendedTriangles trianglesOf(size_t piece, const std::vector<Motion>& sub_motions_M, double margin) const;
-
-  /// Returns how far the link of a piece may reach behind a triangle [m]; 0: it may not touch it. Whether it is deeper is
-  /// for the caller to find out.
-  double allowedDepth(size_t piece, std::uint32_t triangle) const;
-
- private:
-  const Tool* tool_ = nullptr;
-  std::vector<const Intention*> intentions_;
-};
-
-inline const Intentions kNoIntentions;
-inline const IntendedContact kNothingIntended;
-
 /// Keeps which links of the tool have touched a workpiece as intended: each until it is 10 mm away from the box around
 /// the regions, in M, or until nothing is intended there any more.
 class IntendedTouches {
@@ -104,7 +79,5 @@ class IntendedTouches {
 
   std::vector<TouchedLink> touches_;
 };
-
-inline const IntendedTouches kNoTouches;
 
 }  // namespace sweep_guard_core

@@ -215,8 +215,7 @@ void MeasuredSweeps::sweepMotions(const SweepSetup& setup, const Segment& segmen
 
 void MeasuredSweeps::sweepSegment(const SweepSetup& setup, const Segment& segment, SweptObject& object) {
   const auto& [workpiece, history, mesh, first, begin, last, interval_begin, end_time] = segment;
-  const IntendedContact intended(setup.tool, setup.intentions, workpiece);
-  const AllowedPieces allowed(setup.tool, setup.allowed, workpiece.id);
+  const ContactPolicy contact(setup.tool, workpiece, &setup.allowed, &setup.intentions);
   history.path_M(first, last, setup.tool.boundingRadius(), path_M_);
   size_t i = first;
   do {
@@ -229,8 +228,8 @@ void MeasuredSweeps::sweepSegment(const SweepSetup& setup, const Segment& segmen
       cache_.already_confirmed = object.result.not_ruled_out;
       remove(cache_.already_confirmed, object.result.intended);
     }
-    SweepResult& result = sweep_checker_.check(
-        setup.detector, {setup.tool, sub_motions_M_, mesh, setup.options, cache_, intended, allowed});
+    SweepResult& result =
+        sweep_checker_.check(setup.detector, {setup.tool, sub_motions_M_, mesh, setup.options, cache_, contact});
     if (is_new) cache_.contact_normals.clear();
     update(cache_, result);
     for (std::vector<TriangleContact>* const in_contact : {&result.in_contact, &result.allowed.in_contact})

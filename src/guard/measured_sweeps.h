@@ -21,12 +21,12 @@ struct SweepSetup {
   Detector& detector;
   const SweepOptions& options;
   DisplacementCache& displacements;
-  std::function<void()> before_sweep = [] {};  ///< called before every sweep; may throw to give up
-  const Intentions& intentions = kNoIntentions;
-  const AllowedPairs& allowed = kNoAllowedPairs;
-  const FrameMotions& frames = kNoFrameMotions;  ///< of those that move on their own
-  bool several = false;     ///< the tool is one of several bodies: where it stays out of reach, it has no volumes
-  SpeedLimits limits = {};  ///< faster motion is a jump
+  const AllowedPairs& allowed;
+  const Intentions& intentions;
+  const FrameMotions& frames;  ///< of those that move on their own
+  SpeedLimits limits;          ///< faster motion is a jump
+  bool several;                ///< the tool is one of several bodies: where it stays out of reach, it has no volumes
+  std::function<void()> before_sweep;  ///< called before every sweep; may throw to give up
 };
 
 /// Sweeps one body of the tool along the measured poses; Guard says what is swept. Keeps the poses that may be swept again for

@@ -38,7 +38,7 @@ class NarrowPhase::Piece {
         directions_(all.directions_[piece]),
         batch_(all.batch_),
         result_(result),
-        intended_(request.intended.trianglesOf(piece, request.sub_motions, margin_)),
+        intended_(request.contact.trianglesIntendedFor(piece, request.sub_motions, margin_)),
         normal_(request.contact_normals.begin()) {
     finder_.begin(shape_T_, request.sub_motions, margin_);
     directions_.begin(shape_T_, request.sub_motions, margin_);

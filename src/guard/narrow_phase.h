@@ -10,6 +10,7 @@
 #include "guard/moving_mesh.h"
 #include "guard/separating_directions.h"
 #include "guard/triangle_set.h"
+#include "sweep_guard/guard/contact_policy.h"
 #include "sweep_guard/guard/sweep.h"
 
 namespace sweep_guard_core {
@@ -24,7 +25,7 @@ struct NarrowPhaseRequest {
   const std::vector<TriangleSet>& candidates;  ///< one set for each convex piece of the tool
   double margin;                               ///< the tool is grown by this [m], >= 0
   const ContactNormals& contact_normals;       ///< normals of contacts that began earlier
-  const IntendedContact& intended = kNothingIntended;
+  const ContactPolicy& contact = kForbidAllContact;
 };
 
 struct NarrowPhaseResult {

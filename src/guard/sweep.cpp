@@ -40,8 +40,8 @@ PathResult checkPath(Detector& detector, const PathRequest& request) {
   SweepCache cache;
   for (size_t i = 0; i < std::max<size_t>(path.size() - 1, 1); ++i) {
     request.before_sweep();
-    const SweepResult sweep = checkSweep(detector, {request.tool, subMotions(request, i), request.mesh_M,
-                                                    request.options, cache, kNothingIntended, request.allowed});
+    const SweepResult sweep = checkSweep(
+        detector, {request.tool, subMotions(request, i), request.mesh_M, request.options, cache, request.contact});
     if (sweep.contact() && !result.first_contact) {
       result.first_contact = i;
       result.time_of_impact = firstTimeOfImpact(sweep);

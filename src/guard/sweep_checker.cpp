@@ -6,6 +6,7 @@
 #include "detection/float_planes.h"
 #include "detection/inside.h"
 #include "guard/swept_body.h"
+#include "guard/tool_tree.h"
 #include "guard/triangle_set.h"
 
 namespace sweep_guard_core {
@@ -65,40 +66,51 @@ void uniteButContacts(SweepResult& all, const SweepResult& more) {
 
 }  // namespace
 
-// A triangle that does not meet a box meets no piece inside the box. The planes decide about the boxes, and the
-// detector, which costs more for each triangle that it names, decides about the pieces.
-struct SweepChecker::TreeWalk {
+// Planes decide about the boxes; the detector, which costs more for each triangle that it names, about the pieces.
+struct SweepChecker::PieceTest {
+  // The triangles that the box above meets, and how many boxes there are above.
+  struct Around {
+    Submesh submesh;
+    size_t depth;
+  };
+
   Detector& detector;
   const SweepRequest& request;
   Motion motion_M;
   SweepChecker& checker;
 
-  void visit(size_t index, const Submesh& around, size_t depth) {
-    const Tool::Node& node = request.tool.tree()[index];
-    const double margin = request.options.margin + request.mesh.spread();
-    const SweptBody body = sweptBody(node.shape_T, motion_M, request.options.volume, margin);
-    SweepResult& result = checker.result_;
-    double inflation = 0.0;
-    if (node.piece) {
-      detect(detector, around, body, checker.detection_);
-      inflation = checker.detection_.inflation;
-      const bool allowed = request.allowed.contains(*node.piece);
-      unite((allowed ? checker.allowed_ : checker.candidates_)[*node.piece], checker.detection_.triangles);
-      unite(allowed ? result.allowed.triangles : result.triangles, checker.detection_.triangles);
-    } else if (visitBelow(node, body.volume_M, around, depth)) {
-      return;
-    }
-    result.margin = std::max(result.margin, body.volume_M.margin + inflation);
-    result.volumes_M.push_back(body.volume_M);
+  std::optional<Around> enter(size_t box, const Around& above) {
+    const SweptVolume volume_M = bodyOf(box).volume_M;
+    const simd::Planes planes = floatPlanes(request.mesh.mesh_M(), volume_M);
+    while (checker.finders_.size() <= above.depth) checker.finders_.emplace_back();
+    const Submesh near = checker.finders_[above.depth].find(above.submesh, planes);
+    if (!checker.culler_.cull(near, planes).empty()) return Around{near, above.depth + 1};
+    report(volume_M, 0.0);
+    return std::nullopt;
   }
 
-  bool visitBelow(const Tool::Node& node, const SweptVolume& volume_M, const Submesh& around, size_t depth) {
-    const simd::Planes planes = floatPlanes(request.mesh.mesh_M(), volume_M);
-    while (checker.finders_.size() <= depth) checker.finders_.emplace_back();
-    const Submesh near = checker.finders_[depth].find(around, planes);
-    if (checker.culler_.cull(near, planes).empty()) return false;
-    for (const size_t below : node.below) visit(below, near, depth + 1);
-    return true;
+  std::array<size_t, 2> order(const Tool::Node& box) const { return box.below; }
+
+  bool visit(size_t node, const Around& above) {
+    const SweptBody body = bodyOf(node);
+    const size_t piece = *request.tool.tree()[node].piece;
+    detect(detector, above.submesh, body, checker.detection_);
+    const bool allowed = request.contact.allows(piece);
+    unite((allowed ? checker.allowed_ : checker.candidates_)[piece], checker.detection_.triangles);
+    unite(allowed ? checker.result_.allowed.triangles : checker.result_.triangles, checker.detection_.triangles);
+    report(body.volume_M, checker.detection_.inflation);
+    return false;
+  }
+
+ private:
+  SweptBody bodyOf(size_t node) const {
+    const double margin = request.options.margin + request.mesh.spread();
+    return sweptBody(request.tool.tree()[node].shape_T, motion_M, request.options.volume, margin);
+  }
+
+  void report(const SweptVolume& volume_M, double inflation) const {
+    checker.result_.margin = std::max(checker.result_.margin, volume_M.margin + inflation);
+    checker.result_.volumes_M.push_back(volume_M);
   }
 };
 
@@ -154,7 +166,8 @@ SweepResult& SweepChecker::check(Detector& detector, const SweepRequest& request
   }
   for (Motion motion_M : request.sub_motions) {
     motion_M.mesh_translation = request.mesh.translation_M();
-    TreeWalk{detector, request, motion_M, *this}.visit(0, request.mesh.mesh_M(), 0);
+    PieceTest test{detector, request, motion_M, *this};
+    walkTree(request.tool, /*node=*/0, PieceTest::Around{request.mesh.mesh_M(), 0}, test);
   }
   result_.fine = request.options.fine;
   result_.not_ruled_out = result_.triangles;
@@ -182,7 +195,7 @@ void SweepChecker::findSides(const SweepRequest& request) {
   const Eigen::Isometry3d& X_MT = request.sub_motions.back().X_MT_end;
   for (size_t i = 0; i < result_.sides.size(); ++i) {
     const ConvexPiece& piece = request.tool.pieces()[i];
-    if (request.allowed.contains(i) || linkTouches(result_.in_contact, request.tool, piece.link)) continue;
+    if (request.contact.allows(i) || linkTouches(result_.in_contact, request.tool, piece.link)) continue;
     PieceSide& side = result_.sides[i];
     if (side == PieceSide::kUnknown) {
       const bool is_inside = inside(request.mesh.mesh_M(), X_MT * piece.shape_T.moments_T().mean);
@@ -197,12 +210,12 @@ void SweepChecker::narrow(const SweepRequest& request) {
   const TriangleSet& confirmed = request.cache.already_confirmed;
   for (TriangleSet& candidates : candidates_) remove(candidates, confirmed);
   narrow_phase_.run({request.tool, request.sub_motions, request.mesh, candidates_, request.options.margin,
-                     request.cache.contact_normals, request.intended},
+                     request.cache.contact_normals, request.contact},
                     narrow_phase_result_);
   keepOnly(result_.not_ruled_out, confirmed);
   unite(result_.not_ruled_out, narrow_phase_result_.not_ruled_out);
   std::swap(result_.in_contact, narrow_phase_result_.in_contact);
-  if (request.intended.empty()) return;
+  if (!request.contact.intendsAny()) return;
   result_.intended = narrow_phase_result_.not_ruled_out;
   remove(result_.intended, narrow_phase_result_.unintended);
 }

@@ -27,8 +27,7 @@ struct SweepRequest {
   const MovingMesh& mesh;
   SweepOptions options = {};
   const SweepCache& cache = kEmptySweepCache;  ///< of the sweep that ended where this one begins
-  const IntendedContact& intended = kNothingIntended;
-  const AllowedPieces& allowed = kNoAllowedPieces;
+  const ContactPolicy& contact = kForbidAllContact;
 };
 
 /// Tests the volumes that the tool sweeps during each sub-motion. Descends the tool's tree of boxes to its convex
@@ -43,7 +42,7 @@ class SweepChecker {
   SweepResult& check(Detector& detector, const SweepRequest& request);
 
  private:
-  struct TreeWalk;
+  struct PieceTest;
 
   void narrow(const SweepRequest& request);
   void narrowAllowed(const SweepRequest& request);

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "common/heartbeat.h"
-#include "guard/moving_mesh.h"
 #include "sweep_guard/geometry/separation.h"
 
 namespace sweep_guard_core {
@@ -51,18 +50,19 @@ bool missedByHull(const ConvexShape& shape_T, const Motion& motion_M, const Movi
   return distanceExceeds(hull, prism, margin, guess_M);
 }
 
+bool HullFilter::misses(std::uint32_t triangle, double growth) const {
+  beat();
+  return missedByHull(*body_.shape_T, body_.motion_M, mesh_M_.triangle(triangle), body_.volume_M.margin + growth);
+}
+
 void detect(Detector& detector, const Submesh& submesh, const SweptBody& body, Detection& detection) {
   beat();
   detection = detector.detect(submesh, body.volume_M);
-  if (body.kind != VolumeKind::kHull) return;
-  const double margin = body.volume_M.margin + detection.inflation;
-  const MovingMesh at_rest(submesh.mesh_M());
-  const auto missed = [&](std::uint32_t triangle) {
-    beat();
-    return missedByHull(*body.shape_T, body.motion_M, at_rest.triangle(triangle), margin);
-  };
+  const HullFilter hull(body, submesh.mesh_M(), detection.inflation);
+  if (!hull.filters()) return;
   TriangleSet& triangles = detection.triangles;
-  triangles.erase(std::remove_if(triangles.begin(), triangles.end(), missed), triangles.end());
+  const auto isLeftOut = [&](std::uint32_t triangle) { return hull.leavesOut(triangle); };
+  triangles.erase(std::remove_if(triangles.begin(), triangles.end(), isLeftOut), triangles.end());
 }
 
 }  // namespace sweep_guard_core

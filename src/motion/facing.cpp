@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "common/heartbeat.h"
 #include "geometry/penetration.h"
@@ -108,13 +109,12 @@ void Facings::place(const ProximityRequest& request, const std::shared_ptr<const
                     const Eigen::Isometry3d& X_WM) {
   SurfaceMotion& motion = motions_[workpiece->id];
   updateMotion(request.pose, workpiece, X_WM, motion);
-  const AllowedPieces allowed(request.tool, request.allowed, workpiece->id);
-  if (allowed.all()) return;
+  ContactPolicy contact(request.tool, *workpiece, request.allowed, request.intentions);
+  if (contact.allowsAll()) return;
   PlacedSurface& surface = surfaces_[surface_count_++];
   surface.workpiece = workpiece;
   surface.motion = &motion;
-  surface.intended = request.intentions == nullptr ? IntendedContact()
-                                                   : IntendedContact(request.tool, *request.intentions, *workpiece);
+  surface.contact = std::move(contact);
   surface.contacts = nullptr;
   if (request.swept != nullptr) {
     for (const SweptObject& object : request.swept->objects) {
@@ -125,17 +125,16 @@ void Facings::place(const ProximityRequest& request, const std::shared_ptr<const
   surface.boxes.assign(workpiece->mesh_M.blocks());
   surface.drift = driftOf(*workpiece, request.pose);
   rounding_ = std::max(rounding_, workpiece->mesh_M.rounding() + surface.drift);
-  face(request, surface, allowed, X_WM);
+  face(request, surface, X_WM);
 }
 
-void Facings::face(const ProximityRequest& request, const PlacedSurface& surface, const AllowedPieces& allowed,
-                   const Eigen::Isometry3d& X_WM) {
+void Facings::face(const ProximityRequest& request, const PlacedSurface& surface, const Eigen::Isometry3d& X_WM) {
   const TriangleMesh& mesh_M = surface.workpiece->mesh_M;
   Eigen::Isometry3d X_MT = X_WM.inverse() * request.pose.X_WT;
   X_MT.translation() -= mesh_M.origin();
   const auto& pieces = request.tool.pieces();
   for (size_t piece = 0; piece < pieces.size(); ++piece) {
-    if (allowed.contains(piece)) continue;
+    if (surface.contact.allows(piece)) continue;
     if (count_ == facings_.size()) facings_.emplace_back();
     Facing& facing = facings_[count_++];
     facing.piece = piece;

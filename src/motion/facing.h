@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "guard/intended_contact.h"
 #include "motion/block_boxes.h"
 #include "motion/piece_cover.h"
 #include "motion/surface_motion.h"
+#include "sweep_guard/guard/contact_policy.h"
 #include "sweep_guard/guard/sweep.h"
 #include "sweep_guard/guard/workpiece.h"
 #include "sweep_guard/motion/proximity_finder.h"
@@ -22,7 +22,7 @@ struct PlacedSurface {
   std::shared_ptr<const Workpiece> workpiece;
   const SurfaceMotion* motion;
   const std::vector<TriangleContact>* contacts;  ///< what the sweep to the pose met; null: not known
-  IntendedContact intended;
+  ContactPolicy contact;
   BlockBoxes boxes;
   double age;    ///< of its deformation at the pose, in which it has moved on [s]; 0 if it does not deform
   double drift;  ///< bound on how far its frame may have moved since that was measured [m]
@@ -46,7 +46,7 @@ struct Facing {
 
   const TriangleMesh& mesh() const { return surface->workpiece->mesh_M; }
   /// Returns how deep the piece may reach into a triangle [m]; 0: contact is not meant there.
-  double allowedDepth(std::uint32_t triangle) const { return surface->intended.allowedDepth(piece, triangle); }
+  double allowedDepth(std::uint32_t triangle) const { return surface->contact.intendedDepth(piece, triangle); }
   /// Returns the corners. A triangle that the piece is meant to touch counts from the depth on that is allowed.
   PieceCover::Corners corners(std::uint32_t triangle) const;
   /// Returns the triangle of a cluster that the lowest bit stands for.
@@ -81,8 +81,7 @@ class Facings {
   void forgetRemoved(const Workpieces& workpieces);
   void place(const ProximityRequest& request, const std::shared_ptr<const Workpiece>& workpiece,
              const Eigen::Isometry3d& X_WM);
-  void face(const ProximityRequest& request, const PlacedSurface& surface, const AllowedPieces& allowed,
-            const Eigen::Isometry3d& X_WM);
+  void face(const ProximityRequest& request, const PlacedSurface& surface, const Eigen::Isometry3d& X_WM);
 
   std::map<std::string, SurfaceMotion> motions_;  // by id
   std::vector<PlacedSurface> surfaces_;           // the first surface_count_

@@ -87,20 +87,16 @@ void ProximityFinder::Search::begin(const ProximityRequest& request, Proximity& 
     const Facing& facing = facings_[i];
     const CenteredBox box(facing.surface->boxes.of(WholeMesh()));
     push({facing.cover.distance(box), i, 0, 0, Kind::kMesh});
-    if (!facing.surface->intended.empty()) pushIntended(i);
+    pushIntended(i);
   }
 }
 
 // They are not where the boxes of the mesh say.
 void ProximityFinder::Search::pushIntended(std::uint32_t index) {
   const Facing& facing = facings_[index];
-  const Workpiece& workpiece = *facing.surface->workpiece;
-  const std::string& link = request_->tool.pieces()[facing.piece].link;
-  for (const Intention& intention : *request_->intentions) {
-    if (!intention.concerns(workpiece) || !intention.allows(link)) continue;
-    for (const std::uint32_t triangle : intention.triangles) {
+  for (const Intention* intention : facing.surface->contact.intentionsFor(facing.piece)) {
+    for (const std::uint32_t triangle : intention->triangles)
       push({facing.cover.distance(facing.corners(triangle)), index, triangle, 0, Kind::kTriangle});
-    }
   }
 }
 

@@ -507,14 +507,14 @@ void GuardThread::predictInterrupted(Duration age, const sweep_guard_core::Workp
   const auto origin = predictedFrom(predicted_from_.pose, predicted_from_.checkpoint.epoch);
   dependencies_.sampler.setWorkpieces(workpieces, origin);
   bool interruptible = true;
-  const auto between = [&] {
-    if (!interruptible || (next_ == work_.poses.size() && !dependencies_.queue.hasPoses())) return;
+  sweep_guard_core::PredictionRun run = guard_.beginPrediction(age, workpieces, prediction);
+  for (; !run.done(); run.step()) {
+    if (!interruptible || (next_ == work_.poses.size() && !dependencies_.queue.hasPoses())) continue;
     const SteadyTime begin = std::chrono::steady_clock::now();
     top_->attempt([&] { interruptible = sweepWaiting(); });
     interrupted += std::chrono::steady_clock::now() - begin;
     dependencies_.sampler.setWorkpieces(workpieces, origin);
-  };
-  guard_.predict(age, workpieces, prediction, std::ref(between));
+  }
 }
 
 PredictService::Motion GuardThread::motion(Duration horizon) const {

@@ -202,8 +202,9 @@ TEST_F(AllowedContactTest, IsLeftOutOfAPathAndOfTheDistance) {
   const Tool tool = gripper();
   const std::vector<Isometry3d> path = {placedAt({0.0, 0.0, -0.2}), placedAt({0.0, 0.0, 0.0})};
   const auto detector = makeDetector("reference");
-  const AllowedPieces allowed(tool, {{"finger", "payload"}}, "payload");
-  const PathResult found = checkPath(*detector, {tool, path, payload_->mesh_M, {}, [] {}, {}, allowed});
+  const AllowedPairs pairs = {{"finger", "payload"}};
+  const ContactPolicy contact(tool, *payload_, &pairs);
+  const PathResult found = checkPath(*detector, {tool, path, payload_->mesh_M, {}, [] {}, {}, contact});
   const PathResult strict = checkPath(*detector, {tool, path, payload_->mesh_M, {}});
   EXPECT_TRUE(strict.first_contact);
   EXPECT_FALSE(found.first_contact);

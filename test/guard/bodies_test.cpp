@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "guard/body_prediction.h"
 #include "guard/fake_detector.h"
 #include "guard/guard_results.h"
-#include "guard/predict_contacts.h"
 #include "guard/times.h"
 #include "guard/triangle_set.h"
 #include "kinematics/random_robot.h"

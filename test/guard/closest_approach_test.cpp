@@ -1,4 +1,4 @@
-#include "guard/predict_contacts.h"
+#include "guard/closest_approach.h"
 
 #include <gtest/gtest.h>
 

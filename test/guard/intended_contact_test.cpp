@@ -336,12 +336,12 @@ TEST(IntendedContactTest, TheLargestDepthOfALinkCounts) {
   const Intentions all = {{"bone", triangles, {1, 2}, 0.01, {"bit"}},
                           {"bone", triangles, {2, 3}, 0.02},
                           {"tendon", triangles, {1, 2, 3}, 0.5}};
-  const IntendedContact intended(tool, all, bone);
-  EXPECT_EQ(intended.allowedDepth(/*piece=*/0, 1), 0.01);
-  EXPECT_EQ(intended.allowedDepth(1, 2), 0.02);
-  EXPECT_EQ(intended.allowedDepth(/*the shaft*/ 2, 1), 0.0);
-  EXPECT_EQ(intended.allowedDepth(2, 3), 0.02);
-  EXPECT_EQ(intended.allowedDepth(0, 4), 0.0);
+  const ContactPolicy contact(tool, bone, nullptr, &all);
+  EXPECT_EQ(contact.intendedDepth(/*piece=*/0, 1), 0.01);
+  EXPECT_EQ(contact.intendedDepth(1, 2), 0.02);
+  EXPECT_EQ(contact.intendedDepth(/*the shaft*/ 2, 1), 0.0);
+  EXPECT_EQ(contact.intendedDepth(2, 3), 0.02);
+  EXPECT_EQ(contact.intendedDepth(0, 4), 0.0);
 }
 
 // A quick answer from the neighbor's normal is the same as the exact one, or no.

@@ -551,7 +551,10 @@ class SlowGuard {
     pose_.X_WT.rotate(Eigen::AngleAxisd(0.066 * turn_rate, Eigen::Vector3d::UnitX()));
     pose_.stamp += 66ms;
     reportOf(*guard_, pose_, workpieces_);
-    guard_->predict(5ms, workpieces_, prediction, between);
+    PredictionRun run = guard_->beginPrediction(5ms, workpieces_, prediction);
+    for (; !run.done(); run.step()) {
+      if (between) between();
+    }
     return clock_ - begin;
   }
   void spend(Duration time) { clock_ += time; }
@@ -663,7 +666,8 @@ TEST_F(InterruptedGuardTest, APredictionIsTheSameIfPosesAreSweptBetweenItsSweeps
   ASSERT_TRUE(expected.firstContact());
   int swept = 0;
   Prediction prediction;
-  guard_.predict(0ms, workpieces_, prediction, [&] { reportOf(guard_, poseAt(++swept), workpieces_); });
+  PredictionRun run = guard_.beginPrediction(0ms, workpieces_, prediction);
+  for (; !run.done(); run.step()) reportOf(guard_, poseAt(++swept), workpieces_);
   EXPECT_GE(swept, 20);
   expectSame(prediction, expected);
 }
@@ -672,7 +676,8 @@ TEST_F(InterruptedGuardTest, PosesSweptBetweenTheSweepsOfAPredictionMeetTheSameT
   Prediction prediction;
   int swept = 0;
   bool contact = false;
-  guard_.predict(0ms, workpieces_, prediction, [&] {
+  PredictionRun run = guard_.beginPrediction(0ms, workpieces_, prediction);
+  for (; !run.done(); run.step()) {
     const PoseWithFrames pose = poseAt(3 * ++swept);
     const SweepReport report = reportOf(guard_, pose, workpieces_);
     const SweepReport expected = reportOf(other_, pose, workpieces_);
@@ -680,7 +685,7 @@ TEST_F(InterruptedGuardTest, PosesSweptBetweenTheSweepsOfAPredictionMeetTheSameT
     ASSERT_EQ(report.objects.size(), 1U);
     EXPECT_EQ(report.objects[0].result.not_ruled_out, expected.objects[0].result.not_ruled_out) << swept;
     contact = contact || report.contact();
-  });
+  }
   EXPECT_TRUE(contact);
   expectSame(predictionOf(guard_, 0ms, workpieces_), predictionOf(other_, 0ms, workpieces_));
 }
@@ -688,7 +693,8 @@ TEST_F(InterruptedGuardTest, PosesSweptBetweenTheSweepsOfAPredictionMeetTheSameT
 TEST_F(InterruptedGuardTest, APredictionEndsThoughAllIsForgottenMeanwhile) {
   const Prediction expected = predictionOf(other_, 0ms, workpieces_);
   Prediction prediction;
-  guard_.predict(0ms, workpieces_, prediction, [&] { guard_.reset(); });
+  PredictionRun run = guard_.beginPrediction(0ms, workpieces_, prediction);
+  for (; !run.done(); run.step()) guard_.reset();
   expectSame(prediction, expected);
   EXPECT_TRUE(predictionOf(guard_, 0ms, workpieces_).path.empty());
 }

@@ -560,7 +560,7 @@ TEST_F(IntendedProximityTest, ALinkThatMayTouchHasNoPlanes) {
     Isometry3d X_WT(Eigen::AngleAxisd(M_PI, Vector3d::UnitX()));
     X_WT.translation() = Vector3d(0.0, 0.0, 0.001);
     Proximity found;
-    finder_.find({tool_, poseAt(X_WT), {plate_}, 0.1, nullptr, nullptr, allowed}, found);
+    finder_.find({tool_, poseAt(X_WT), {plate_}, 0.1, nullptr, nullptr, &allowed}, found);
     std::set<size_t> with_planes;
     for (const ProximityPlane& each : found.planes) with_planes.insert(each.plane.piece);
     return std::pair(with_planes, found.uncovered.distance);
@@ -584,7 +584,7 @@ TEST_F(IntendedProximityTest, TheSpeedOfWhatMayBeTouchedCountsForNothing) {
       pose.X_WM = {{kFrame, Isometry3d(Eigen::Translation3d(toSeconds(t - 100s), 0.0, -0.01))}, {"still", far}};
       Workpiece still = *table;
       still.frame = "still";
-      finder.find({tool_, pose, {plate_, std::make_shared<const Workpiece>(still)}, 0.1, nullptr, nullptr, allowed},
+      finder.find({tool_, pose, {plate_, std::make_shared<const Workpiece>(still)}, 0.1, nullptr, nullptr, &allowed},
                   found);
     }
     return found.uncovered.speed;

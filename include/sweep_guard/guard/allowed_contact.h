@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "sweep_guard/common/priority_mutex.h"
-#include "sweep_guard/geometry/tool.h"
 #include "sweep_guard/guard/workpiece.h"
 
 namespace sweep_guard_core {
@@ -25,25 +24,6 @@ using AllowedPairs = std::vector<AllowedPair>;
 
 /// Returns the pair in words: "link 'finger' with 'payload'".
 std::string describe(const AllowedPair& pair);
-
-/// Names the convex pieces of a tool that may touch one workpiece.
-class AllowedPieces {
- public:
-  /// No piece.
-  AllowedPieces() = default;
-  /// @param mesh_id  of the workpiece
-  AllowedPieces(const Tool& tool, const AllowedPairs& pairs, const std::string& mesh_id);
-
-  bool empty() const { return pieces_.empty(); }
-  bool contains(size_t piece) const { return !empty() && pieces_[piece]; }
-  bool all() const;  ///< every piece of the tool
-
- private:
-  std::vector<bool> pieces_;  // of the tool; empty: none
-};
-
-inline const AllowedPairs kNoAllowedPairs;
-inline const AllowedPieces kNoAllowedPieces;
 
 /// Remembers which allowed pairs have ever had a workpiece: an id that never comes may be misspelled. Any thread.
 class AllowedMatches {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <atomic>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -14,11 +13,11 @@
 
 namespace sweep_guard_core {
 
-class ClosestApproaches;
 class DisplacementCache;
 struct GuardedBody;
+class PredictionRun;
+struct SweepSetup;
 class TimeBudget;
-struct SweepPlan;
 
 /// Sweeps the tool, or each body of it, from pose to pose, so that no motion goes untested, and predicts contacts after the
 /// newest pose [P, Sec. 3.2]. Any thread may call it, one thread at a time; stop() at any time.
@@ -90,13 +89,17 @@ class Guard {
   ///
   /// If `cycle` leaves too little time after sweep(), sweeps beyond the reflex interval are fewer and coarser: they may
   /// report contacts that finer ones would rule out, but miss none.
-  /// @param age  of the newest pose, >= 0 (asserted)
-  /// @param[out] prediction  overwritten; its buffers are used again
-  /// @param between  called before each sweep and each part of one. It may call sweep(), pass(), takeBack() and reset(),
-  ///     nothing else: the prediction goes on from the pose that it began with, and their time is not the prediction's.
-  ///     Empty: nothing is called
-  void predict(Duration age, const Workpieces& workpieces, Prediction& prediction,
-               const std::function<void()>& between = {});
+  ///
+  /// The caller drives the prediction step by step. Between two steps it may call sweep(), pass(), follow(), intend(),
+  /// takeBack() and reset(), nothing else: the prediction goes on from the pose that it began with, and their time is not its
+  /// time. It ends early when the next one begins.
+  /// @param age         of the newest pose, >= 0 (asserted)
+  /// @param workpieces  must outlive the run
+  /// @param[out] prediction  overwritten; must outlive the run; its buffers are used again
+  PredictionRun beginPrediction(Duration age, const Workpieces& workpieces, Prediction& prediction);
+
+  /// Predicts in one go.
+  void predict(Duration age, const Workpieces& workpieces, Prediction& prediction);
 
   /// Predicts the motion after the newest pose without testing it. The newest pose must have been given to sweep(), not
   /// to pass(). The path is empty before the first sweep and until PosePredictor knows a motion. Unlike predict(), this
@@ -136,16 +139,16 @@ class Guard {
   const Tool& tool(size_t body = 0) const;
 
  private:
+  class Run;
+  friend class PredictionRun;
+
   Guard(std::vector<Tool> bodies, std::shared_ptr<const Robot> robot, std::unique_ptr<Detector> detector,
         const GuardOptions& options);
 
   template <typename Sweep>
   void sweepBodies(const PoseWithFrames& pose, SweepReport& report, const Sweep& sweep);
   void observe(const PoseWithFrames& pose);
-  void orderBodies(const Workpieces& workpieces);
-  void beginPlan(SteadyTime begin, const std::function<void()>& between);
-  size_t consideredSweeps() const;
-  void interrupt(const std::function<void()>& between);
+  SweepSetup sweepSetup(const GuardedBody& body) const;
   void throwIfStopping() const;
 
   std::atomic<bool> stopping_ = false;
@@ -157,17 +160,29 @@ class Guard {
   std::unique_ptr<TimeBudget> budget_;
   std::optional<PoseWithFrames> newest_;  // pose of the last sweep
   std::string jump_;                      // what jumped since then, in words
-  PredictedMotion motion_;                // that is tested
-  Duration interrupted_{};                // time for other things during this test
-  Horizon horizon_;
-  std::unique_ptr<SweepPlan> plan_;
-  std::unique_ptr<ClosestApproaches> closest_;  // in the running prediction
-  std::vector<size_t> swept_order_;             // of the bodies: 0, 1, ...
-  std::vector<size_t> predicted_order_;         // of the bodies: what may come nearest first
-  std::vector<double> nearness_;                // of the bodies [standard deviations]
+  std::unique_ptr<Run> run_;
   const std::shared_ptr<const Intentions> no_intentions_;
   std::shared_ptr<const Intentions> intentions_;
   std::shared_ptr<const FrameMotions> frames_ = std::make_shared<const FrameMotions>();
+};
+
+/// A prediction under way. Its Guard must outlive it.
+///
+///     for (PredictionRun run = guard.beginPrediction(age, workpieces, prediction); !run.done();) {
+///       run.step();
+///       if (a pose has come) guard.sweep(...);
+///     }
+class PredictionRun {
+ public:
+  bool done() const;  ///< the prediction is complete
+  /// Tests one sweep of one body against one workpiece, or a half of a sweep. Not if done().
+  void step();
+
+ private:
+  friend class Guard;
+  explicit PredictionRun(Guard::Run& run) : run_(run) {}
+
+  Guard::Run& run_;
 };
 
 }  // namespace sweep_guard_core

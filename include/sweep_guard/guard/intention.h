@@ -33,6 +33,7 @@ struct Intention {
   bool concerns(const Workpiece& workpiece) const {
     return workpiece.id == mesh_id && &workpiece.mesh_M.triangles() == mesh_triangles.get();
   }
+  bool holds(std::uint32_t triangle) const { return std::binary_search(triangles.begin(), triangles.end(), triangle); }
   /// Returns whether this link of the tool may touch the region.
   bool allows(const std::string& link) const {
     return tool_links.empty() || std::find(tool_links.begin(), tool_links.end(), link) != tool_links.end();

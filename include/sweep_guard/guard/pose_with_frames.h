@@ -63,6 +63,9 @@ struct PoseWithFrames {
   BodyPose body(size_t i) const { return bodies.empty() ? BodyPose{X_WT} : bodies[i]; }
 };
 
+/// Copies a pose. Allocates nothing if both have the same frames and bodies.
+void assign(PoseWithFrames& to, const PoseWithFrames& from);
+
 /// Places the frames that move on their own where they are at the stamp of a pose, as far as that is known.
 /// @param[in,out] pose  its X_WM and drifts of these frames are replaced
 void placeFollowed(const FrameMotions& frames, PoseWithFrames& pose);

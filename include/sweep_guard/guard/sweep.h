@@ -13,7 +13,7 @@
 #include "sweep_guard/detection/time_of_impact.h"
 #include "sweep_guard/geometry/swept_volume.h"
 #include "sweep_guard/geometry/tool.h"
-#include "sweep_guard/guard/allowed_contact.h"
+#include "sweep_guard/guard/contact_policy.h"
 #include "sweep_guard/guard/workpiece.h"
 #include "sweep_guard/prediction/jump.h"
 
@@ -40,7 +40,7 @@ struct TriangleContact {
   bool intended = false;
 };
 
-/// Holds what the pieces of the tool that may touch a mesh (AllowedPieces) meet of it during one motion.
+/// Holds what the pieces of the tool that may touch a mesh (ContactPolicy) meet of it during one motion.
 struct AllowedContact {
   TriangleSet triangles = {};                    ///< triangles that a swept volume may meet: ascending, each once
   std::vector<TriangleContact> in_contact = {};  ///< those in contact, as in SweepResult; empty without narrow phase
@@ -88,7 +88,7 @@ struct PathRequest {
   /// Of each sweep: bound [m], >= 0, on the distance of a tool point from where it would be if the tool moved as a Motion.
   /// Empty: 0
   std::vector<double> deviation_bounds = {};
-  const AllowedPieces& allowed = kNoAllowedPieces;
+  const ContactPolicy& contact = kForbidAllContact;  ///< only allowed contact counts
 };
 
 /// Holds what the tool meets along a path of poses; one sweep for each two consecutive poses.

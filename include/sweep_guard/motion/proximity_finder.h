@@ -28,7 +28,8 @@ struct ProximityRequest {
   /// Where contact is meant: a triangle that a link may touch counts from the allowed depth on, for the pieces of this
   /// link. Null: nowhere.
   const Intentions* intentions = nullptr;
-  const AllowedPairs& allowed = kNoAllowedPairs;  ///< a workpiece is no surface for the pieces that may touch it
+  /// A workpiece is no surface for the pieces that may touch it. Null: none may.
+  const AllowedPairs* allowed = nullptr;
 };
 
 /// A plane and what it was made for.

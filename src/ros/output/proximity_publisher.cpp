@@ -74,7 +74,7 @@ void ProximityPublisher::swept(const sweep_guard_core::PoseWithFrames& pose,
   const sweep_guard_core::Tool& tool = guard.tool();
   const InStage computing(Stage::kProximity);
   finder_.find({tool, pose, workpieces, parameters->proximity_reach, &report, guard.intentions().get(),
-                parameters->guard.allowed},
+                &parameters->guard.allowed},
                proximity_);
   const InStage publishing(Stage::kPublish);
   const auto message = boost::make_shared<sweep_guard::Proximity>();

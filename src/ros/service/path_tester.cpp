@@ -13,9 +13,9 @@ std::vector<sweep_guard_core::PathResult> PathTester::test(const PathQuestion& q
     const auto before_sweep = [&, id = workpiece->id, sweep = size_t{0}]() mutable {
       question.go_on("sweep " + std::to_string(sweep++) + " of the path, on '" + id + "'");
     };
-    const sweep_guard_core::AllowedPieces allowed(*tool, question.parameters->guard.allowed, workpiece->id);
+    const sweep_guard_core::ContactPolicy contact(*tool, *workpiece, &question.parameters->guard.allowed);
     results.push_back(sweep_guard_core::checkPath(
-        used, {*tool, path_M, workpiece->mesh_M, question.options, before_sweep, deviation_bounds, allowed}));
+        used, {*tool, path_M, workpiece->mesh_M, question.options, before_sweep, deviation_bounds, contact}));
   }
   return results;
 }

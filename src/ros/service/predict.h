@@ -8,7 +8,7 @@
 #include <future>
 #include <memory>
 
-#include "guard/predict_contacts.h"
+#include "guard/body_prediction.h"
 #include "guard/workpiece_store.h"
 #include "ros/parameters/parameters.h"
 #include "ros/service/limited_calls.h"

@@ -1,10 +1,8 @@
-#include "guard/predict_contacts.h"
+#include "guard/closest_approach.h"
 
 #include <algorithm>
-#include <limits>
 
-#include "guard/path_checker.h"
-#include "guard/united_bodies.h"
+#include "common/floating_point.h"
 
 namespace sweep_guard_core {
 
@@ -19,7 +17,7 @@ void ClosestApproach::add(Duration from, double deviations) {
 double ClosestApproach::upTo(Duration from) const {
   const auto next = std::upper_bound(falls_.begin(), falls_.end(), from,
                                      [](Duration time, const auto& fall) { return time < fall.first; });
-  return next == falls_.begin() ? std::numeric_limits<double>::infinity() : std::prev(next)->second;
+  return next == falls_.begin() ? kInfinity : std::prev(next)->second;
 }
 
 ClosestApproach& ClosestApproaches::to(const Workpiece& workpiece) {
@@ -31,27 +29,6 @@ ClosestApproach& ClosestApproaches::to(const Workpiece& workpiece) {
   whose = &workpiece;
   approach.clear();
   return approach;
-}
-
-Prediction predictContacts(Detector& detector, const std::vector<Tool>& bodies, const PredictedMotion& motion,
-                           const Workpieces& workpieces, const GuardOptions& options,
-                           const std::function<bool()>& out_of_time) {
-  Prediction all;
-  ClosestApproaches closest;
-  size_t first_piece = 0;
-  for (size_t i = 0; i < bodies.size(); ++i) {
-    const PredictionRequest request{
-        bodies[i], motion, workpieces, kNoIntentions, kNoTouches, i, bodies.size() > 1 ? &closest : nullptr};
-    Prediction prediction;
-    PathChecker(PathChecker::optionsOf(options)).predict(detector, request, {{}, out_of_time}, prediction);
-    if (i == 0) {
-      all = std::move(prediction);
-    } else {
-      unite(all, prediction, first_piece);
-    }
-    first_piece += bodies[i].pieces().size();
-  }
-  return all;
 }
 
 }  // namespace sweep_guard_core

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "guard/path_checker.h"
+#include "sweep_guard/guard/guard_options.h"
+#include "sweep_guard/guard/prediction.h"
+#include "sweep_guard/guard/workpiece.h"
+
+namespace sweep_guard_core {
+
+/// A predicted motion of one body of the tool, among workpieces. What it refers to must outlive its test.
+struct BodyPredictionRequest {
+  const Tool& tool;
+  const PredictedMotion& motion;
+  /// Their frames are taken to stay where they are at the pose that the motion begins at, but for PredictedMotion::frames.
+  const Workpieces& workpieces;
+  const SweepPlan& plan;
+  size_t body = 0;                           ///< index of `tool` among PoseWithFrames::bodies
+  const AllowedPairs* allowed = nullptr;     ///< null: none
+  const Intentions* intentions = nullptr;    ///< null: contact is meant nowhere
+  const IntendedTouches* touches = nullptr;  ///< null: none
+  ClosestApproaches* closest = nullptr;      ///< of the bodies predicted so far; null: it is the only one
+};
+
+/// Tests the predicted motion of one body against every workpiece, one sweep at a time. A workpiece whose test fails is
+/// reported, and the others are tested. Consecutive workpieces in one place share the sweeps of the body. Keeps its buffers.
+class BodyPrediction {
+ public:
+  explicit BodyPrediction(const PathChecker::Options& options) : checker_(options) {}
+
+  /// Begins a test in place of the one before.
+  /// @param[out] prediction  overwritten; must outlive the test; its buffers are used again
+  void begin(const BodyPredictionRequest& request, Prediction& prediction);
+  bool done() const;
+  /// Tests one sweep, or one half of a sweep, against one workpiece. Not if done().
+  void step(Detector& detector);
+  /// Reports the workpiece under test, and those that follow, as failed.
+  void giveUp(const std::string& reason);
+
+ private:
+  const Workpieces& workpieces() const;
+  bool beginNext();
+  bool place(const Workpiece& workpiece);
+  void finish();
+
+  PathChecker checker_;
+  std::optional<BodyPredictionRequest> request_;
+  Prediction* prediction_ = nullptr;
+  Eigen::Isometry3d X_WB_ = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d X_WM_ = Eigen::Isometry3d::Identity();  // of the workpiece under test, in a frame that rests
+  std::optional<FramePath> frame_;                          // the same, of one that moves on its own
+  size_t next_ = 0;                                         // workpiece
+  size_t tested_ = 0;                                       // objects of the prediction
+};
+
+/// Tests a predicted motion of all bodies of a tool against every workpiece, as a guard with these options does if time is
+/// not short: one sweep for every pose of the path. A workpiece whose detection fails is reported as a failure. An empty
+/// path tests nothing.
+/// @param bodies       of the tool, at least one, as for Guard
+/// @param options      only `sweep`, `horizon.reflex_step`, `max_deviations` and `allowed` count; they are not checked
+/// @param out_of_time  once it returns true, sweeps after the reflex interval are tested coarsely: a triangle counts as
+///                     met if no plane of a volume separates it from the volume; null: never
+Prediction predictContacts(Detector& detector, const std::vector<Tool>& bodies, const PredictedMotion& motion,
+                           const Workpieces& workpieces, const GuardOptions& options,
+                           const std::function<bool()>& out_of_time);
+
+}  // namespace sweep_guard_core

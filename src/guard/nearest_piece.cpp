@@ -1,0 +1,182 @@
+#include "guard/nearest_piece.h"
+
+#include <algorithm>
+
+#include "common/floating_point.h"
+#include "common/stage_clock.h"
+#include "guard/tool_tree.h"
+
+namespace sweep_guard_core {
+namespace {
+
+struct Unchanged {};  // a walk that carries nothing down the tree
+
+}  // namespace
+
+bool WorkpieceOnPath::hasTouched(size_t piece) const {
+  return touches != nullptr && contact.intendsAny() && touches->contains(workpiece.id, tool.pieces()[piece].link);
+}
+
+IntendedTriangles WorkpieceOnPath::intendedFor(size_t piece, const Motion& motion_M) const {
+  if (!contact.intendsAny()) return {};
+  return contact.trianglesIntendedFor(piece, {motion_M}, margin);
+}
+
+const PieceApproach& nearer(const PieceApproach& one, const PieceApproach& other) {
+  return other.deviations < one.deviations ? other : one;
+}
+
+void NearestPiece::clear() {
+  approach = {};
+  unseparated.clear();
+}
+
+PieceBounds::PieceBounds(const Tool& tool, const UncertainStep& step, const ClusterBoxes& boxes,
+                         std::vector<std::optional<double>>& buffer)
+    : tool_(&tool), step_(&step), boxes_(&boxes), least_(&buffer) {
+  buffer.assign(tool.tree().size(), std::nullopt);
+}
+
+double PieceBounds::least(size_t node) const {
+  if (!bounded()) return -kInfinity;
+  std::optional<double>& least = (*least_)[node];
+  if (!least) {
+    const UncertainBall ball = step_->ballAround(tool_->tree()[node].bounds_T);
+    least = ball.deviationsWithin(boxes_->distanceFrom(ball.center_M));
+  }
+  return *least;
+}
+
+std::array<size_t, 2> PieceBounds::nearestFirst(const Tool::Node& node) const {
+  const auto& [first, second] = node.below;
+  if (least(second) < least(first)) return {second, first};
+  return {first, second};
+}
+
+bool PieceBounds::anyWithin(double limit, const ContactPolicy& contact) const {
+  struct AnyWithin {
+    const PieceBounds& bounds;
+    double limit;
+    const ContactPolicy& contact;
+
+    std::optional<Unchanged> enter(size_t box, Unchanged above) const {
+      return bounds.least(box) > limit ? std::nullopt : std::optional(above);
+    }
+    static std::array<size_t, 2> order(const Tool::Node& box) { return box.below; }
+    bool visit(size_t piece, Unchanged /*above*/) const {
+      return !(bounds.least(piece) > limit) && !contact.allows(*bounds.tool_->tree()[piece].piece);
+    }
+  } any{*this, limit, contact};
+  return walkTree(*tool_, /*node=*/0, Unchanged(), any);
+}
+
+// One motion of the tool in a segment.
+struct NearestPieceFinder::Search {
+  NearestPieceFinder& finder;
+  const WorkpieceOnPath& on_path;
+  const Submesh& submesh;
+  const PieceBounds& bounds;
+  const Motion& motion_M;
+  const UncertainPose& end_M;
+  double at_most = kInfinity;
+
+  std::optional<Unchanged> enter(size_t box, Unchanged above) const {
+    return isLeftOut(box) ? std::nullopt : std::optional(above);
+  }
+  std::array<size_t, 2> order(const Tool::Node& box) const { return bounds.nearestFirst(box); }
+
+  // Whether no piece below a node counts, or comes nearer than `at_most`. The planes that cut the box of a piece take more time
+  // than the box, and most boxes suffice. Without bounds, the boxes around pieces have to.
+  bool isLeftOut(size_t number) const {
+    const Tool::Node& node = on_path.tool.tree()[number];
+    if (node.piece && on_path.contact.allows(*node.piece)) return true;
+    if (bounds.least(number) > finder.limit(at_most)) return true;
+    const bool box_helps = node.piece ? on_path.options.volume != VolumeKind::kObb : !bounds.bounded();
+    if (!box_helps) return false;
+    const SweptVolume box_M = sweptVolume(node.shape_T, motion_M, VolumeKind::kObb, on_path.margin);
+    return finder.meter_.isSeparated(submesh, box_M, deviations(node.shape_T, box_M),
+                                     finder.limit(node.piece ? at_most : kInfinity));
+  }
+
+  PerHalfSpace deviations(const ConvexShape& shape_T, const SweptVolume& swept_M) const {
+    return planeDeviations(shape_T, end_M.X_MT, end_M.covariance_M, swept_M);
+  }
+  SweptBody bodyOf(const ConvexShape& shape_T) const {
+    return sweptBody(shape_T, motion_M, on_path.options.volume, on_path.margin);
+  }
+
+  bool isNear(size_t piece, const SweptBody& body, const PerHalfSpace& deviations) const {
+    IntendedTriangles intended = on_path.intendedFor(piece, motion_M);
+    return finder.meter_.isNear(submesh, body.volume_M, deviations, &intended);
+  }
+
+  void measure(size_t piece, const SweptBody& body, const PerHalfSpace& deviations, NearestPiece& nearest) {
+    IntendedTriangles intended = on_path.intendedFor(piece, motion_M);
+    const auto clearance = finder.meter_.measure(submesh, body.volume_M, deviations, &intended, std::max(0.0, at_most));
+    if (!clearance) return;
+    const PieceApproach approach{clearance->deviations, piece};
+    if (!clearance->separated) nearest.unseparated.push_back({body, approach});
+    if (!on_path.hasTouched(piece)) nearest.approach = nearer(nearest.approach, approach);
+    at_most = std::min(at_most, nearest.approach.deviations);
+  }
+};
+
+struct NearestPieceFinder::AnySearch : Search {
+  bool visit(size_t number, Unchanged /*above*/) const {
+    if (isLeftOut(number)) return false;
+    const Tool::Node& node = on_path.tool.tree()[number];
+    const SweptBody body = bodyOf(node.shape_T);
+    return isNear(*node.piece, body, deviations(node.shape_T, body.volume_M));
+  }
+};
+
+struct NearestPieceFinder::NearestSearch : Search {
+  NearestPiece& nearest;
+
+  bool visit(size_t number, Unchanged /*above*/) {
+    if (isLeftOut(number)) return false;
+    const Tool::Node& node = on_path.tool.tree()[number];
+    const SweptBody body = bodyOf(node.shape_T);
+    measure(*node.piece, body, deviations(node.shape_T, body.volume_M), nearest);
+    return false;
+  }
+};
+
+bool NearestPieceFinder::any(const WorkpieceOnPath& on_path, const Submesh& submesh, const SweptSegment& swept,
+                             const PieceBounds& bounds) {
+  if (submesh.empty()) return false;
+  const InStage stage(Stage::kProbability);
+  const std::optional<size_t>& only_piece = on_path.tool.tree()[0].piece;
+  for (size_t i = 0; i < swept.bodies.size(); ++i) {
+    const SweptBody& body = swept.bodies[i];
+    AnySearch search{{*this, on_path, submesh, bounds, body.motion_M, swept.end_M}};
+    const bool near =
+        only_piece ? !on_path.contact.allows(*only_piece) && search.isNear(*only_piece, body, swept.deviations[i])
+                   : meter_.mayBeNear(submesh, body.volume_M, swept.deviations[i]) &&
+                         walkTree(on_path.tool, /*node=*/0, Unchanged(), search);
+    if (near) return true;
+  }
+  return false;
+}
+
+void NearestPieceFinder::find(const WorkpieceOnPath& on_path, const Submesh& submesh, const SweptSegment& swept,
+                              const PieceBounds& bounds, double at_most, NearestPiece& nearest) {
+  nearest.clear();
+  if (submesh.empty()) return;
+  const InStage stage(Stage::kProbability);
+  const std::optional<size_t>& only_piece = on_path.tool.tree()[0].piece;
+  for (size_t i = 0; i < swept.bodies.size(); ++i) {
+    const SweptBody& body = swept.bodies[i];
+    const double limit = std::min(at_most, nearest.approach.deviations);
+    NearestSearch search{{*this, on_path, submesh, bounds, body.motion_M, swept.end_M, limit}, nearest};
+    if (only_piece) {
+      if (!on_path.contact.allows(*only_piece)) search.measure(*only_piece, body, swept.deviations[i], nearest);
+    } else if (meter_.mayBeNear(submesh, body.volume_M, swept.deviations[i])) {
+      walkTree(on_path.tool, /*node=*/0, Unchanged(), search);
+    }
+  }
+}
+
+double NearestPieceFinder::limit(double at_most) const { return std::max(0.0, std::min(at_most, max_deviations_)); }
+
+}  // namespace sweep_guard_core
