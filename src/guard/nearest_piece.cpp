@@ -9,7 +9,7 @@
 namespace sweep_guard_core {
 namespace {
 
-struct Unchanged {};  // a walk that carries nothing down the tree
+struct Nothing {};
 
 }  // namespace
 
@@ -54,20 +54,17 @@ std::array<size_t, 2> PieceBounds::nearestFirst(const Tool::Node& node) const {
 }
 
 bool PieceBounds::anyWithin(double limit, const ContactPolicy& contact) const {
-  struct AnyWithin {
-    const PieceBounds& bounds;
-    double limit;
-    const ContactPolicy& contact;
-
-    std::optional<Unchanged> enter(size_t box, Unchanged above) const {
-      return bounds.least(box) > limit ? std::nullopt : std::optional(above);
+  TreeWalk<Nothing> walk({});
+  while (const auto at = walk.next()) {
+    if (least(at->node) > limit) continue;
+    const Tool::Node& node = tool_->tree()[at->node];
+    if (!node.piece) {
+      walk.goBelow(node.below, {});
+    } else if (!contact.allows(*node.piece)) {
+      return true;
     }
-    static std::array<size_t, 2> order(const Tool::Node& box) { return box.below; }
-    bool visit(size_t piece, Unchanged /*above*/) const {
-      return !(bounds.least(piece) > limit) && !contact.allows(*bounds.tool_->tree()[piece].piece);
-    }
-  } any{*this, limit, contact};
-  return walkTree(*tool_, /*node=*/0, Unchanged(), any);
+  }
+  return false;
 }
 
 // One motion of the tool in a segment.
@@ -79,11 +76,6 @@ struct NearestPieceFinder::Search {
   const Motion& motion_M;
   const UncertainPose& end_M;
   double at_most = kInfinity;
-
-  std::optional<Unchanged> enter(size_t box, Unchanged above) const {
-    return isLeftOut(box) ? std::nullopt : std::optional(above);
-  }
-  std::array<size_t, 2> order(const Tool::Node& box) const { return bounds.nearestFirst(box); }
 
   // Whether no piece below a node counts, or comes nearer than `at_most`. The planes that cut the box of a piece take more time
   // than the box, and most boxes suffice. Without bounds, the boxes around pieces have to.
@@ -101,10 +93,6 @@ struct NearestPieceFinder::Search {
   PerHalfSpace deviations(const ConvexShape& shape_T, const SweptVolume& swept_M) const {
     return planeDeviations(shape_T, end_M.X_MT, end_M.covariance_M, swept_M);
   }
-  SweptBody bodyOf(const ConvexShape& shape_T) const {
-    return sweptBody(shape_T, motion_M, on_path.options.volume, on_path.margin);
-  }
-
   bool isNear(size_t piece, const SweptBody& body, const PerHalfSpace& deviations) const {
     IntendedTriangles intended = on_path.intendedFor(piece, motion_M);
     return finder.meter_.isNear(submesh, body.volume_M, deviations, &intended);
@@ -119,25 +107,22 @@ struct NearestPieceFinder::Search {
     if (!on_path.hasTouched(piece)) nearest.approach = nearer(nearest.approach, approach);
     at_most = std::min(at_most, nearest.approach.deviations);
   }
-};
 
-struct NearestPieceFinder::AnySearch : Search {
-  bool visit(size_t number, Unchanged /*above*/) const {
-    if (isLeftOut(number)) return false;
-    const Tool::Node& node = on_path.tool.tree()[number];
-    const SweptBody body = bodyOf(node.shape_T);
-    return isNear(*node.piece, body, deviations(node.shape_T, body.volume_M));
-  }
-};
-
-struct NearestPieceFinder::NearestSearch : Search {
-  NearestPiece& nearest;
-
-  bool visit(size_t number, Unchanged /*above*/) {
-    if (isLeftOut(number)) return false;
-    const Tool::Node& node = on_path.tool.tree()[number];
-    const SweptBody body = bodyOf(node.shape_T);
-    measure(*node.piece, body, deviations(node.shape_T, body.volume_M), nearest);
+  // Calls a function with each piece that is not left out, its body and deviations, first the one that may come nearer, until
+  // the function returns true. Returns whether one did.
+  template <typename Test>
+  bool anyPiece(const Test& test) {
+    TreeWalk<Nothing> walk({});
+    while (const auto at = walk.next()) {
+      if (isLeftOut(at->node)) continue;
+      const Tool::Node& node = on_path.tool.tree()[at->node];
+      if (!node.piece) {
+        walk.goBelow(bounds.nearestFirst(node), {});
+        continue;
+      }
+      const SweptBody body = sweptBody(node.shape_T, motion_M, on_path.options.volume, on_path.margin);
+      if (test(*node.piece, body, deviations(node.shape_T, body.volume_M))) return true;
+    }
     return false;
   }
 };
@@ -149,11 +134,13 @@ bool NearestPieceFinder::any(const WorkpieceOnPath& on_path, const Submesh& subm
   const std::optional<size_t>& only_piece = on_path.tool.tree()[0].piece;
   for (size_t i = 0; i < swept.bodies.size(); ++i) {
     const SweptBody& body = swept.bodies[i];
-    AnySearch search{{*this, on_path, submesh, bounds, body.motion_M, swept.end_M}};
+    Search search{*this, on_path, submesh, bounds, body.motion_M, swept.end_M};
+    const auto isNear = [&](size_t piece, const SweptBody& swept_piece, const PerHalfSpace& deviations) {
+      return search.isNear(piece, swept_piece, deviations);
+    };
     const bool near =
         only_piece ? !on_path.contact.allows(*only_piece) && search.isNear(*only_piece, body, swept.deviations[i])
-                   : meter_.mayBeNear(submesh, body.volume_M, swept.deviations[i]) &&
-                         walkTree(on_path.tool, /*node=*/0, Unchanged(), search);
+                   : meter_.mayBeNear(submesh, body.volume_M, swept.deviations[i]) && search.anyPiece(isNear);
     if (near) return true;
   }
   return false;
@@ -168,11 +155,14 @@ void NearestPieceFinder::find(const WorkpieceOnPath& on_path, const Submesh& sub
   for (size_t i = 0; i < swept.bodies.size(); ++i) {
     const SweptBody& body = swept.bodies[i];
     const double limit = std::min(at_most, nearest.approach.deviations);
-    NearestSearch search{{*this, on_path, submesh, bounds, body.motion_M, swept.end_M, limit}, nearest};
+    Search search{*this, on_path, submesh, bounds, body.motion_M, swept.end_M, limit};
     if (only_piece) {
       if (!on_path.contact.allows(*only_piece)) search.measure(*only_piece, body, swept.deviations[i], nearest);
     } else if (meter_.mayBeNear(submesh, body.volume_M, swept.deviations[i])) {
-      walkTree(on_path.tool, /*node=*/0, Unchanged(), search);
+      search.anyPiece([&](size_t piece, const SweptBody& swept_piece, const PerHalfSpace& deviations) {
+        search.measure(piece, swept_piece, deviations, nearest);
+        return false;
+      });
     }
   }
 }

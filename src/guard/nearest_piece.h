@@ -98,8 +98,6 @@ class NearestPieceFinder {
 
  private:
   struct Search;
-  struct AnySearch;
-  struct NearestSearch;
 
   ClearanceMeter meter_;
   double max_deviations_;

@@ -66,54 +66,6 @@ void uniteButContacts(SweepResult& all, const SweepResult& more) {
 
 }  // namespace
 
-// Planes decide about the boxes; the detector, which costs more for each triangle that it names, about the pieces.
-struct SweepChecker::PieceTest {
-  // The triangles that the box above meets, and how many boxes there are above.
-  struct Around {
-    Submesh submesh;
-    size_t depth;
-  };
-
-  Detector& detector;
-  const SweepRequest& request;
-  Motion motion_M;
-  SweepChecker& checker;
-
-  std::optional<Around> enter(size_t box, const Around& above) {
-    const SweptVolume volume_M = bodyOf(box).volume_M;
-    const simd::Planes planes = floatPlanes(request.mesh.mesh_M(), volume_M);
-    while (checker.finders_.size() <= above.depth) checker.finders_.emplace_back();
-    const Submesh near = checker.finders_[above.depth].find(above.submesh, planes);
-    if (!checker.culler_.cull(near, planes).empty()) return Around{near, above.depth + 1};
-    report(volume_M, 0.0);
-    return std::nullopt;
-  }
-
-  std::array<size_t, 2> order(const Tool::Node& box) const { return box.below; }
-
-  bool visit(size_t node, const Around& above) {
-    const SweptBody body = bodyOf(node);
-    const size_t piece = *request.tool.tree()[node].piece;
-    detect(detector, above.submesh, body, checker.detection_);
-    const bool allowed = request.contact.allows(piece);
-    unite((allowed ? checker.allowed_ : checker.candidates_)[piece], checker.detection_.triangles);
-    unite(allowed ? checker.result_.allowed.triangles : checker.result_.triangles, checker.detection_.triangles);
-    report(body.volume_M, checker.detection_.inflation);
-    return false;
-  }
-
- private:
-  SweptBody bodyOf(size_t node) const {
-    const double margin = request.options.margin + request.mesh.spread();
-    return sweptBody(request.tool.tree()[node].shape_T, motion_M, request.options.volume, margin);
-  }
-
-  void report(const SweptVolume& volume_M, double inflation) const {
-    checker.result_.margin = std::max(checker.result_.margin, volume_M.margin + inflation);
-    checker.result_.volumes_M.push_back(volume_M);
-  }
-};
-
 void AllowedContact::clear() {
   triangles.clear();
   in_contact.clear();
@@ -166,8 +118,7 @@ SweepResult& SweepChecker::check(Detector& detector, const SweepRequest& request
   }
   for (Motion motion_M : request.sub_motions) {
     motion_M.mesh_translation = request.mesh.translation_M();
-    PieceTest test{detector, request, motion_M, *this};
-    walkTree(request.tool, /*node=*/0, PieceTest::Around{request.mesh.mesh_M(), 0}, test);
+    sweep(detector, request, motion_M);
   }
   result_.fine = request.options.fine;
   result_.not_ruled_out = result_.triangles;
@@ -178,6 +129,36 @@ SweepResult& SweepChecker::check(Detector& detector, const SweepRequest& request
   keepSides(request);
   if (!result_.unintendedContact()) findSides(request);
   return result_;
+}
+
+// Planes decide about the boxes; the detector, which costs more for each triangle that it names, about the pieces.
+void SweepChecker::sweep(Detector& detector, const SweepRequest& request, const Motion& motion_M) {
+  const double margin = request.options.margin + request.mesh.spread();
+  TreeWalk<Around> walk({request.mesh.mesh_M(), 0});
+  while (const auto at = walk.next()) {
+    const Tool::Node& node = request.tool.tree()[at->node];
+    const SweptBody body = sweptBody(node.shape_T, motion_M, request.options.volume, margin);
+    double inflation = 0.0;
+    if (node.piece) {
+      detect(detector, at->above.submesh, body, detection_);
+      inflation = detection_.inflation;
+      const bool allowed = request.contact.allows(*node.piece);
+      unite((allowed ? allowed_ : candidates_)[*node.piece], detection_.triangles);
+      unite(allowed ? result_.allowed.triangles : result_.triangles, detection_.triangles);
+    } else if (const auto met = trianglesMet(body.volume_M, at->above)) {
+      walk.goBelow(node.below, *met);
+      continue;
+    }
+    result_.margin = std::max(result_.margin, body.volume_M.margin + inflation);
+    result_.volumes_M.push_back(body.volume_M);
+  }
+}
+
+std::optional<SweepChecker::Around> SweepChecker::trianglesMet(const SweptVolume& box_M, const Around& above) {
+  const simd::Planes planes = floatPlanes(above.submesh.mesh_M(), box_M);
+  while (finders_.size() <= above.depth) finders_.emplace_back();
+  const Submesh near = finders_[above.depth].find(above.submesh, planes);
+  return culler_.cull(near, planes).empty() ? std::nullopt : std::optional(Around{near, above.depth + 1});
 }
 
 // A piece that meets no triangle stays on its side.

@@ -42,8 +42,14 @@ class SweepChecker {
   SweepResult& check(Detector& detector, const SweepRequest& request);
 
  private:
-  struct PieceTest;
+  // The triangles that a box of the tool meets, and how many boxes are around it.
+  struct Around {
+    Submesh submesh;
+    size_t depth;
+  };
 
+  void sweep(Detector& detector, const SweepRequest& request, const Motion& motion_M);
+  std::optional<Around> trianglesMet(const SweptVolume& box_M, const Around& above);
   void narrow(const SweepRequest& request);
   void narrowAllowed(const SweepRequest& request);
   void keepSides(const SweepRequest& request);

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <algorithm>
+#include <array>
+#include <boost/container/small_vector.hpp>
 #include <cstddef>
 #include <optional>
 
@@ -8,24 +9,44 @@
 
 namespace sweep_guard_core {
 
-/// Descends the tree of a tool to its convex pieces, depth first. What does not meet a box meets no piece inside of it: the
-/// visitor says of each box whether to go on below. A visitor has three functions:
+/// Descends the tree of a tool to its convex pieces, depth first. What does not meet a box meets no piece inside of it, so
+/// the caller says of each box whether to go below:
 ///
-///     std::optional<State> enter(size_t box, const State& above)  empty: leaves out all pieces in the box
-///     std::array<size_t, 2> order(const Tool::Node& box)          the nodes below, as they are to be visited
-///     bool visit(size_t piece, const State& above)                returns whether the walk ends
+///     TreeWalk<State> walk(state_of_the_root);
+///     while (const auto at = walk.next()) {
+///       const Tool::Node& node = tool.tree()[at->node];
+///       if (node.piece) test(*node.piece);
+///       else if (meets(node)) walk.goBelow(node.below, state);
+///     }
 ///
-/// @param node   index in Tool::tree() of the node to begin at; so are `box` and `piece`
-/// @param above  state of the node above, which enter() returned
-/// @returns whether a visit ended the walk
-template <typename State, typename Visitor>
-bool walkTree(const Tool& tool, size_t node, const State& above, Visitor& visitor) {
-  const Tool::Node& at = tool.tree()[node];
-  if (at.piece) return visitor.visit(node, above);
-  const std::optional<State> here = visitor.enter(node, above);
-  if (!here) return false;
-  const auto order = visitor.order(at);
-  return std::any_of(order.begin(), order.end(), [&](size_t below) { return walkTree(tool, below, *here, visitor); });
-}
+/// @tparam State  what a node hands down to the two below it
+template <typename State>
+class TreeWalk {
+ public:
+  struct Stop {
+    size_t node;  ///< index into Tool::tree()
+    State above;  ///< state that was handed down to it
+  };
+
+  explicit TreeWalk(const State& above) { stops_.push_back({0, above}); }
+
+  /// Returns the next node; empty at the end.
+  std::optional<Stop> next() {
+    if (stops_.empty()) return std::nullopt;
+    const Stop stop = stops_.back();
+    stops_.pop_back();
+    return stop;
+  }
+
+  /// Visits the nodes below the last one next, before all others.
+  /// @param order  Tool::Node::below, as they are to be visited
+  void goBelow(const std::array<size_t, 2>& order, const State& here) {
+    stops_.push_back({order[1], here});
+    stops_.push_back({order[0], here});
+  }
+
+ private:
+  boost::container::small_vector<Stop, 32> stops_;  // the next one last; deeper trees allocate
+};
 
 }  // namespace sweep_guard_core
