@@ -51,9 +51,7 @@ const Tool& Guard::tool(size_t body) const { return bodies_[body]->tool; }
 
 void Guard::sweep(const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report) {
   observe(pose);
-  sweepBodies(pose, report, [&](size_t i, GuardedBody& body, const SweepSetup& setup, SweepReport& swept) {
-    body.sweeps.sweep(setup, pose, pose.body(i), workpieces, swept);
-  });
+  sweepBodies(pose, /*arrived=*/true, workpieces, report);
   if (!newest_) newest_.emplace();
   assign(*newest_, pose);
 }
@@ -61,20 +59,18 @@ void Guard::sweep(const PoseWithFrames& pose, const Workpieces& workpieces, Swee
 void Guard::sweepOn(const Workpieces& workpieces, SweepReport& report) {
   assert(newest_);
   placeFollowed(*frames_, *newest_);
-  sweepBodies(*newest_, report, [&](size_t, GuardedBody& body, const SweepSetup& setup, SweepReport& swept) {
-    body.sweeps.sweepOn(setup, *newest_, workpieces, swept);
-  });
+  sweepBodies(*newest_, /*arrived=*/false, workpieces, report);
 }
 
-template <typename Sweep>
-void Guard::sweepBodies(const PoseWithFrames& pose, SweepReport& report, const Sweep& sweep) {
+void Guard::sweepBodies(const PoseWithFrames& pose, bool arrived, const Workpieces& workpieces, SweepReport& report) {
   const SteadyTime begin = options_.clock();
   displacements_->forgetUnused();
   for (size_t i = 0; i < bodies_.size(); ++i) {
     GuardedBody& body = *bodies_[i];
     SweepReport& swept = i == 0 ? report : body.report;
-    sweep(i, body, sweepSetup(body), swept);
-    body.touches.update(swept, pose, pose.body(i).X_WB, body.tool, *intentions());
+    const BodyPose at = pose.body(i);
+    body.sweeps.sweep(sweepSetup(body), pose, arrived ? std::optional(at) : std::nullopt, workpieces, swept);
+    body.touches.update(swept, pose, at.X_WB, body.tool, *intentions());
   }
   uniteBodies(bodies_, &GuardedBody::report, report);
   report.jump = std::exchange(jump_, {});

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "guard/frame_jumps.h"
 #include "guard/out_of_reach.h"
-#include "guard/placed_workpieces.h"
 #include "guard/rigid_shape.h"
 
 namespace sweep_guard_core {
@@ -73,50 +71,27 @@ void leaveOut(const SweepSetup& setup, bool has_new_poses, SweepCache& cache, Sw
 }  // namespace
 
 void MeasuredSweeps::pass(const PoseWithFrames& pose, const BodyPose& body, const FrameMotions& frames) {
-  add(pose, body, frames);
+  poses_.add(pose, body, frames);
   if (!waiting_since_ && !pose.anew) waiting_since_ = pose.received;
 }
 
-void MeasuredSweeps::add(const PoseWithFrames& pose, const BodyPose& body, const FrameMotions& frames) {
-  ++poses_;
-  const auto goes_to = [&](const std::string& frame) { return !pose.anew || pose.anew->concerns(frame); };
-  const bool begins = pose.anew && !pose.anew->goes_on;
-  for (const auto& [frame, X_WM] : pose.X_WM) {
-    if (frames.count(frame) != 0 || !goes_to(frame)) continue;
-    joined_.erase(frame);
-    histories_[frame].add({poses_, pose.stamp, body.X_WB, X_WM, body.deviation_bound, begins});
-  }
-  for (const auto& [frame, motion] : frames) {
-    if (goes_to(frame) && !joined_[frame].add(pose.stamp, body, begins)) passed_over_.insert(frame);
-  }
-}
-
-// Numbers ascend in each history, also where several samples lie between two poses.
-void MeasuredSweeps::join(const FrameMotions& frames) {
-  for (const auto& [frame, motion] : frames) {
-    joined_[frame].join(*motion, samples_);
-    for (const JoinedMotion::Sample& sample : samples_) {
-      histories_[frame].add({++poses_, sample.stamp, sample.X_WB, sample.X_WM, sample.deviation_bound, sample.anew});
-      if (sample.left_out) passed_over_.insert(frame);
-    }
-  }
-}
-
-bool MeasuredSweeps::isPlaced(const std::string& frame, const PoseWithFrames& pose, const FrameMotions& frames) const {
-  return (frames.count(frame) != 0 || pose.X_WM.count(frame) != 0) && histories_.count(frame) != 0;
-}
-
-void MeasuredSweeps::sweep(const SweepSetup& setup, const PoseWithFrames& pose, const BodyPose& body,
+void MeasuredSweeps::sweep(const SweepSetup& setup, const PoseWithFrames& pose, const std::optional<BodyPose>& arrived,
                            const Workpieces& workpieces, SweepReport& report) {
   begin(workpieces);
-  add(pose, body, setup.frames);
-  sweepJoined(setup, pose, workpieces, report);
-}
-
-void MeasuredSweeps::sweepOn(const SweepSetup& setup, const PoseWithFrames& pose, const Workpieces& workpieces,
-                             SweepReport& report) {
-  begin(workpieces);
-  sweepJoined(setup, pose, workpieces, report);
+  if (arrived) poses_.add(pose, *arrived, setup.frames);
+  poses_.join(setup.frames);
+  poses_.findJumps(swept_to_, setup.limits, report.jumps);
+  report.start = report.end = pose.stamp;
+  report.unplaced.clear();
+  report.failures.clear();
+  sweepWorkpieces(setup, pose, workpieces, report);
+  sweepReplaced(setup, pose, report);
+  poses_.forgetBefore(kMaxUpdateInterval,
+                      [this](const std::string& frame, std::uint64_t newest) { return firstUnswept(frame, newest); });
+  report.backlog = pose.received - waiting_since_.value_or(pose.received);
+  waiting_since_.reset();
+  report.passed_over = poses_.takePassedOver();
+  swept_to_ = poses_.newest();
 }
 
 void MeasuredSweeps::begin(const Workpieces& workpieces) {
@@ -129,27 +104,30 @@ void MeasuredSweeps::begin(const Workpieces& workpieces) {
     replaced = replaced->second.reported ? replaced_.erase(replaced) : std::next(replaced);
 }
 
-void MeasuredSweeps::sweepJoined(const SweepSetup& setup, const PoseWithFrames& pose, const Workpieces& workpieces,
-                                 SweepReport& report) {
-  join(setup.frames);
-  findJumps(setup.limits, report.jumps);
-  report.start = report.end = pose.stamp;
-  const auto is_placed = [&](const Workpiece& workpiece) { return isPlaced(workpiece.frame, pose, setup.frames); };
-  testPlaced(workpieces, is_placed, report, [&](const auto& workpiece, SweptObject& object) {
-    sweepObject(setup, workpiece, lastSwept(workpiece), pose.stamp, object);
-    report.start = std::min(report.start, object.interval_start);
-  });
-  // Their next sweep begins where this one would have begun.
+// A workpiece that is not swept now is swept from the same pose on next time.
+void MeasuredSweeps::sweepWorkpieces(const SweepSetup& setup, const PoseWithFrames& pose, const Workpieces& workpieces,
+                                     SweepReport& report) {
+  size_t tested = 0;
+  for (const auto& workpiece : workpieces) {
+    if (!poses_.isPlaced(workpiece->frame, pose, setup.frames)) {
+      report.unplaced.push_back(workpiece);
+      continue;
+    }
+    try {
+      if (tested == report.objects.size()) report.objects.emplace_back();
+      SweptObject& object = report.objects[tested];
+      sweepObject(setup, workpiece, lastSwept(workpiece), pose.stamp, object);
+      report.start = std::min(report.start, object.interval_start);
+      ++tested;
+    } catch (const std::exception& error) {  // of the detector, or no memory: the other workpieces are swept
+      report.failures.push_back({workpiece, error.what()});
+    }
+  }
+  report.objects.resize(tested);
   for (const auto& workpiece : report.unplaced) {
     Swept& swept = lastSwept(workpiece);
     swept.before = swept.pose;
   }
-  sweepReplaced(setup, pose, report);
-  for (auto& [frame, history] : histories_) shorten(frame, history);
-  report.backlog = pose.received - waiting_since_.value_or(pose.received);
-  waiting_since_.reset();
-  report.passed_over = std::exchange(passed_over_, {});
-  swept_to_ = poses_;
 }
 
 // What fails is swept to the next pose.
@@ -157,7 +135,7 @@ void MeasuredSweeps::sweepReplaced(const SweepSetup& setup, const PoseWithFrames
   report.replaced.clear();
   for (auto& [id, replaced] : replaced_) {
     const auto workpiece = replaced.swept.deformations.back();
-    if (!isPlaced(workpiece->frame, pose, setup.frames)) continue;
+    if (!poses_.isPlaced(workpiece->frame, pose, setup.frames)) continue;
     SweptObject& object = report.replaced.emplace_back();
     try {
       sweepObject(setup, workpiece, replaced.swept, pose.stamp, object);
@@ -173,7 +151,7 @@ void MeasuredSweeps::sweepReplaced(const SweepSetup& setup, const PoseWithFrames
 // @param end_time  of the interval that times of impact are fractions of
 void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<const Workpiece>& workpiece,
                                  Swept& swept, Time end_time, SweptObject& object) {
-  const PoseHistory& history = histories_.at(workpiece->frame);
+  const PoseHistory& history = poses_.of(workpiece->frame);
   const size_t last = history.size() - 1;
   swept.before = swept.pose;
   const size_t begin = history.lastUpTo(swept.pose);
@@ -192,7 +170,13 @@ void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<
     leaveOut(setup, segment.hasNew(), swept.cache, object.result);
   } else {
     cache_ = swept.cache;
-    sweepMotions(setup, segment, object);
+    for (size_t start = first; start <= last;) {
+      const Segment motion = segment.motionFrom(start);
+      sweepSegment(setup, motion, object);
+      if (motion.last < last)
+        cache_ = {};  // what was found before a change of place says nothing of where things are now
+      start = motion.last + 1;
+    }
   }
   if (deformed) swept.deformations.push_back(workpiece);
   swept.grown = deformed;
@@ -200,17 +184,9 @@ void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<
   if (!left_out) std::swap(swept.cache, cache_);
 }
 
-// What was found before the tool or the workpiece was placed anew says nothing of where they are now.
-void MeasuredSweeps::sweepMotions(const SweepSetup& setup, const Segment& segment, SweptObject& object) {
-  Segment motion = segment;
-  while (true) {
-    motion.last = segment.history.endOfMotion(motion.first, segment.last);
-    motion.begin = std::clamp(segment.begin, motion.first, motion.last);
-    sweepSegment(setup, motion, object);
-    if (motion.last == segment.last) return;
-    motion.first = motion.last + 1;
-    cache_ = {};
-  }
+MeasuredSweeps::Segment MeasuredSweeps::Segment::motionFrom(size_t start) const {
+  const size_t end = history.endOfMotion(start, last);
+  return {workpiece, history, mesh, start, std::clamp(begin, start, end), end, interval_begin, end_time};
 }
 
 void MeasuredSweeps::sweepSegment(const SweepSetup& setup, const Segment& segment, SweptObject& object) {
@@ -309,9 +285,7 @@ void MeasuredSweeps::takeBack() noexcept {
 }
 
 void MeasuredSweeps::reset() {
-  histories_.clear();
-  joined_.clear();
-  passed_over_.clear();
+  poses_.reset();
   swept_.clear();
   replaced_.clear();
   waiting_since_.reset();
@@ -324,37 +298,20 @@ void MeasuredSweeps::forgetContacts() {
 
 // A workpiece that appears later in an empty frame was not there when the tool moved.
 void MeasuredSweeps::forgetRemoved(const Workpieces& workpieces) {
-  const auto keepOnlyNamed = [&](auto& entries, std::string Workpiece::*name) {
-    for (auto entry = entries.begin(); entry != entries.end();) {
-      const bool named = std::any_of(workpieces.begin(), workpieces.end(),
-                                     [&](const auto& workpiece) { return (*workpiece).*name == entry->first; });
-      entry = named ? std::next(entry) : entries.erase(entry);
-    }
-  };
-  keepOnlyNamed(histories_, &Workpiece::frame);
-  keepOnlyNamed(joined_, &Workpiece::frame);
-  keepOnlyNamed(swept_, &Workpiece::id);
-  keepOnlyNamed(replaced_, &Workpiece::id);
+  poses_.forgetOtherFrames(workpieces);
+  keepOnlyNamed(workpieces, &Workpiece::id, swept_);
+  keepOnlyNamed(workpieces, &Workpiece::id, replaced_);
 }
 
-// Keeps the poses that a mesh update may need, and those along which some workpiece has not been swept yet.
-void MeasuredSweeps::shorten(const std::string& frame, PoseHistory& history) const {
-  std::uint64_t unswept = history.newest().number;
+std::uint64_t MeasuredSweeps::firstUnswept(const std::string& frame, std::uint64_t newest) const {
+  std::uint64_t unswept = newest;
   for (const auto& [id, swept] : swept_) {
     if (swept.deformations.back()->frame == frame) unswept = std::min(unswept, swept.before);
   }
   for (const auto& [id, replaced] : replaced_) {
     if (replaced.swept.deformations.back()->frame == frame) unswept = std::min(unswept, replaced.swept.before);
   }
-  const Time oldest = history.newest().stamp - kMaxUpdateInterval;
-  while (history.size() > 1 && history[1].number <= unswept && history[1].stamp <= oldest) history.forgetFirst();
-}
-
-void MeasuredSweeps::findJumps(const SpeedLimits& limits, std::vector<FrameJump>& jumps) const {
-  jumps.clear();
-  for (const auto& [frame, history] : histories_) {
-    if (const auto speed = jumpAfter(swept_to_, history, limits)) jumps.push_back({frame, *speed});
-  }
+  return unswept;
 }
 
 }  // namespace sweep_guard_core

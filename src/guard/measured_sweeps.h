@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "guard/displacements.h"
-#include "guard/pose_history.h"
+#include "guard/pose_histories.h"
 #include "guard/sweep_checker.h"
 #include "sweep_guard/guard/pose_with_frames.h"
 #include "sweep_guard/guard/sweep.h"
@@ -41,13 +41,11 @@ class MeasuredSweeps {
   /// Sweeps through the poses passed since the last sweep to this pose. Against a workpiece in a frame that moves on its own,
   /// up to the newest measured pose of the frame, if that pose is older. A workpiece that has other triangles is swept with the
   /// new triangles, and for the last time with the replaced ones.
+  /// @param arrived      pose of the swept body; empty: it was swept to `pose` already and no pose was passed since, so that
+  ///     it is swept on to where the frames that move on their own are known now
   /// @param[out] report  overwritten; its buffers are used again
-  void sweep(const SweepSetup& setup, const PoseWithFrames& pose, const BodyPose& body, const Workpieces& workpieces,
-             SweepReport& report);
-
-  /// Sweeps on to where the frames that move on their own are known now.
-  /// @param pose  of the last sweep, since which no pose was passed
-  void sweepOn(const SweepSetup& setup, const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report);
+  void sweep(const SweepSetup& setup, const PoseWithFrames& pose, const std::optional<BodyPose>& arrived,
+             const Workpieces& workpieces, SweepReport& report);
 
   /// Takes the last sweep back: its report was lost. The next one repeats it.
   void takeBack() noexcept;
@@ -90,18 +88,17 @@ class MeasuredSweeps {
 
     bool isNew(size_t i) const { return i >= begin; }
     bool hasNew() const { return first == begin || begin < last; }
+
+    /// Returns the part up to the next change of place.
+    Segment motionFrom(size_t start) const;
   };
 
   void begin(const Workpieces& workpieces);
-  void add(const PoseWithFrames& pose, const BodyPose& body, const FrameMotions& frames);
-  void sweepJoined(const SweepSetup& setup, const PoseWithFrames& pose, const Workpieces& workpieces,
-                   SweepReport& report);
-  void join(const FrameMotions& frames);
-  bool isPlaced(const std::string& frame, const PoseWithFrames& pose, const FrameMotions& frames) const;
+  void sweepWorkpieces(const SweepSetup& setup, const PoseWithFrames& pose, const Workpieces& workpieces,
+                       SweepReport& report);
   void sweepObject(const SweepSetup& setup, const std::shared_ptr<const Workpiece>& workpiece, Swept& swept,
                    Time end_time, SweptObject& object);
   void sweepReplaced(const SweepSetup& setup, const PoseWithFrames& pose, SweepReport& report);
-  void sweepMotions(const SweepSetup& setup, const Segment& segment, SweptObject& object);
   void sweepSegment(const SweepSetup& setup, const Segment& segment, SweptObject& object);
   static const std::shared_ptr<const Workpiece>& deformationAt(Time pose, const Workpiece& newest, Swept& swept,
                                                                Duration& behind);
@@ -110,20 +107,15 @@ class MeasuredSweeps {
   size_t endOfMotion(const SweepSetup& setup, size_t begin, size_t last) const;
   void findSubMotions(const SweepSetup& setup, const PoseHistory& history, size_t first, size_t begin, size_t end);
   void forgetRemoved(const Workpieces& workpieces);
-  void shorten(const std::string& frame, PoseHistory& history) const;
-  void findJumps(const SpeedLimits& limits, std::vector<FrameJump>& jumps) const;
+  std::uint64_t firstUnswept(const std::string& frame, std::uint64_t newest) const;
 
-  std::map<std::string, PoseHistory> histories_;  // by frame: the poses that may be swept again, and the newest
-  std::map<std::string, JoinedMotion> joined_;    // by frame, of those that move on their own
-  std::vector<JoinedMotion::Sample> samples_;     // of one of these
-  std::map<std::string, Swept> swept_;            // by id
-  std::map<std::string, Replaced> replaced_;      // by id
-  std::uint64_t poses_ = 0;                       // and samples of joined motions
-  std::set<std::string> passed_over_;             // frames whose waiting poses were left out since the last sweep
-  std::uint64_t swept_to_ = 0;                    // number of the pose of the last sweep
-  std::optional<SteadyTime> waiting_since_;       // when the first pose passed since then was received
-  Path path_M_;                                   // of the segment under test
-  std::vector<Motion> sub_motions_M_;             // of a motion along the segment
+  PoseHistories poses_;
+  std::map<std::string, Swept> swept_;        // by id
+  std::map<std::string, Replaced> replaced_;  // by id
+  std::uint64_t swept_to_ = 0;                // number of the pose of the last sweep
+  std::optional<SteadyTime> waiting_since_;   // when the first pose passed since then was received
+  Path path_M_;                               // of the segment under test
+  std::vector<Motion> sub_motions_M_;         // of a motion along the segment
   SweepChecker sweep_checker_;
   SweepCache cache_;  // kept apart while the sweep may still fail
 };

@@ -145,8 +145,7 @@ class Guard {
   Guard(std::vector<Tool> bodies, std::shared_ptr<const Robot> robot, std::unique_ptr<Detector> detector,
         const GuardOptions& options);
 
-  template <typename Sweep>
-  void sweepBodies(const PoseWithFrames& pose, SweepReport& report, const Sweep& sweep);
+  void sweepBodies(const PoseWithFrames& pose, bool arrived, const Workpieces& workpieces, SweepReport& report);
   void observe(const PoseWithFrames& pose);
   SweepSetup sweepSetup(const GuardedBody& body) const;
   void throwIfStopping() const;
