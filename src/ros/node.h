@@ -1,17 +1,18 @@
 #pragma once
 
-#include "ros/cross_check_thread.h"
-#include "ros/guard_thread.h"
+#include "ros/connection/master_watch.h"
+#include "ros/connection/peer_watch.h"
+#include "ros/guard/cross_check_thread.h"
+#include "ros/guard/guard_thread.h"
+#include "ros/guard/watchdog.h"
 #include "ros/input/mesh_input.h"
 #include "ros/input/other_tools.h"
 #include "ros/input/pose_input.h"
-#include "ros/master_watch.h"
 #include "ros/output/diagnostics.h"
 #include "ros/output/scene_publisher.h"
 #include "ros/output/touches_publisher.h"
 #include "ros/output/warning_publisher.h"
 #include "ros/parameters/reconfigure_server.h"
-#include "ros/peer_watch.h"
 #include "ros/service/attach.h"
 #include "ros/service/check_sweep.h"
 #include "ros/service/check_trajectory.h"
@@ -20,7 +21,6 @@
 #include "ros/service/predict.h"
 #include "ros/threads/supervisor.h"
 #include "ros/threads/timer_thread.h"
-#include "ros/watchdog.h"
 
 namespace sweep_guard_ros {
 
@@ -47,7 +47,7 @@ class SweepGuardNode {
   // supervisor_, which reports failures to warnings_ and statistics_.
   LiveParameters parameters_;
   MasterWatch master_watch_;  // before what registers at the master
-  WorkQueue queue_;
+  sweep_guard_core::WorkQueue queue_;
   sweep_guard_core::WarningMonitor monitor_;
   Supervisor supervisor_;  // before all threads
   WarningPublisher warnings_;

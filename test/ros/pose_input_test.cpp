@@ -38,10 +38,10 @@ class PoseInputTest : public testing::Test {
   // Takes from the queue up to the pose of this stamp.
   std::vector<sweep_guard_core::PoseWithFrames> takeUpTo(ros::Time stamp) {
     std::vector<sweep_guard_core::PoseWithFrames> taken;
-    WorkQueue::Work work;
+    sweep_guard_core::WorkQueue::Work work;
     while (taken.empty() || taken.back().anew || taken.back().stamp != fromMsg(stamp)) {
       queue_.take(work);
-      for (const QueuedPose& queued : work.poses) taken.push_back(queued.pose);
+      for (const sweep_guard_core::QueuedPose& queued : work.poses) taken.push_back(queued.pose);
     }
     return taken;
   }
@@ -54,7 +54,7 @@ class PoseInputTest : public testing::Test {
                  [this](const std::string&, const std::string&) { changed_.set_value(); }};
   sweep_guard_core::WarningMonitor monitor_{parameters_.limits};
   const sweep_guard_core::WorkpieceStore workpieces_;
-  WorkQueue queue_;
+  sweep_guard_core::WorkQueue queue_;
   sweep_guard_core::FrameMotionStore frame_motions_;
   const LiveParameters live_{parameters_};
   PoseInput input_{node_, live_, {frames_, workpieces_, monitor_, queue_, frame_motions_}};

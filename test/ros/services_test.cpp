@@ -17,8 +17,8 @@
 #include "guard/fake_detector.h"
 #include "guard_probe.h"
 #include "refusal.h"
-#include "ros/cross_check_thread.h"
-#include "ros/guard_thread.h"
+#include "ros/guard/cross_check_thread.h"
+#include "ros/guard/guard_thread.h"
 #include "ros/parameters/reconfigure_server.h"
 #include "ros/service/check_sweep.h"
 #include "ros/service/controls.h"
@@ -153,7 +153,7 @@ class ServicesTest : public ::testing::Test {
   ros::NodeHandle node_;
   LiveParameters parameters_{loadParameters(node_)};
   Supervisor supervisor_{Process::kShared};
-  WorkQueue queue_;
+  sweep_guard_core::WorkQueue queue_;
   sweep_guard_core::WorkpieceStore workpieces_{[this](const auto& workpieces) { monitor_.setWorkpieces(workpieces); }};
   sweep_guard_core::WarningMonitor monitor_{parameters_.initial().limits};
   WarningPublisher warnings_{node_, parameters_, monitor_};

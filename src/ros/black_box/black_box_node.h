@@ -10,7 +10,7 @@
 #include "ros/black_box/black_box_parameters.h"
 #include "ros/black_box/recorded_topics.h"
 #include "ros/black_box/recorder.h"
-#include "ros/master_watch.h"
+#include "ros/connection/master_watch.h"
 #include "ros/service/limited_calls.h"
 #include "ros/threads/queue_thread.h"
 #include "ros/threads/supervisor.h"

@@ -13,12 +13,12 @@
 #include <set>
 #include <string>
 
-#include "ros/bounded.h"
-#include "ros/gate.h"
+#include "ros/connection/bounded.h"
 #include "ros/input/frame_publishers.h"
 #include "ros/input/frame_tree.h"
 #include "ros/input/transform_clock.h"
-#include "ros/log_throttle.h"
+#include "ros/process/log_throttle.h"
+#include "ros/threads/gate.h"
 #include "ros/threads/queue_thread.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/time.h"

@@ -14,15 +14,15 @@
 
 #include "guard/workpiece_store.h"
 #include "monitor/input_record.h"
-#include "ros/bounded.h"
+#include "monitor/work_queue.h"
+#include "ros/connection/bounded.h"
 #include "ros/input/articulated_tool.h"
 #include "ros/input/frames.h"
 #include "ros/input/jump_watch.h"
 #include "ros/input/moving_frames.h"
-#include "ros/log_throttle.h"
 #include "ros/parameters/parameters.h"
+#include "ros/process/log_throttle.h"
 #include "ros/threads/queue_thread.h"
-#include "ros/work_queue.h"
 #include "sweep_guard/guard/frame_motion.h"
 
 namespace sweep_guard_ros {
@@ -31,7 +31,7 @@ struct PoseInputDependencies {
   Frames& frames;
   const sweep_guard_core::WorkpieceStore& workpieces;
   sweep_guard_core::WarningMonitor& monitor;
-  WorkQueue& queue;
+  sweep_guard_core::WorkQueue& queue;
   sweep_guard_core::FrameMotionStore& frame_motions;
 };
 
@@ -119,7 +119,7 @@ class PoseInput {
   Frames& frames_;
   const sweep_guard_core::WorkpieceStore& workpieces_;
   sweep_guard_core::WarningMonitor& monitor_;
-  WorkQueue& queue_;
+  sweep_guard_core::WorkQueue& queue_;
 
   Checkpoint checkpoint_;  // of the previous input
   std::optional<sweep_guard_core::Time> previous_stamp_;

@@ -7,10 +7,10 @@
 #include <tuple>
 #include <utility>
 
+#include "ros/connection/sole_publisher.h"
 #include "ros/merger/heard_warning.h"
 #include "ros/output/flush.h"
 #include "ros/output/run_id.h"
-#include "ros/sole_publisher.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/monitor/reason.h"

@@ -9,8 +9,8 @@
 #include <string>
 #include <thread>
 
+#include "ros/connection/xml_rpc_call.h"
 #include "ros/threads/supervisor.h"
-#include "ros/xml_rpc_call.h"
 #include "sweep_guard/common/time.h"
 #include "sweep_guard/ros/parameters/parameter_reader.h"
 

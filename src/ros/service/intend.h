@@ -12,10 +12,10 @@
 
 #include "guard/intention_store.h"
 #include "guard/workpiece_store.h"
-#include "ros/bounded.h"
+#include "ros/connection/bounded.h"
 #include "ros/input/frames.h"
-#include "ros/log_throttle.h"
 #include "ros/parameters/parameters.h"
+#include "ros/process/log_throttle.h"
 #include "ros/service/limited_calls.h"
 #include "ros/threads/queue_thread.h"
 

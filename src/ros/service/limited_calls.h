@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "ros/bounded.h"
+#include "ros/connection/bounded.h"
 #include "ros/threads/queue_thread.h"
 
 namespace sweep_guard_ros {

@@ -12,7 +12,7 @@
 #include "guard/workpiece_store.h"
 #include "ros/input/frames.h"
 #include "ros/parameters/parameters.h"
-#include "ros/process.h"
+#include "ros/process/process.h"
 #include "ros/service/path_tester.h"
 #include "ros/threads/background_thread.h"
 #include "sweep_guard/guard/frame_motion.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "ros/detector_test.h"
+#include "ros/guard/detector_test.h"
 #include "ros/service/left_out.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
