@@ -58,6 +58,10 @@ class Frames {
   /// @throws FrameError if there is none
   Eigen::Isometry3d lookup(const std::string& target, const std::string& source, sweep_guard_core::Time stamp) const;
 
+  /// Returns the same pose; empty: there is none.
+  std::optional<Eigen::Isometry3d> find(const std::string& target, const std::string& source,
+                                        sweep_guard_core::Time stamp) const;
+
   /// Returns the same pose, and waits up to `wait` on the steady clock for a transform that is late.
   Eigen::Isometry3d lookup(const std::string& target, const std::string& source, sweep_guard_core::Time stamp,
                            sweep_guard_core::Duration wait) const;
