@@ -18,6 +18,7 @@
 #include "ros/service/controls.h"
 #include "ros/service/intend.h"
 #include "ros/service/predict.h"
+#include "ros/service/service_threads.h"
 #include "ros/threads/supervisor.h"
 #include "ros/threads/timer_thread.h"
 #include "ros/watchdog.h"
@@ -50,6 +51,7 @@ class SweepGuardNode {
   WorkQueue queue_;
   sweep_guard_core::WarningMonitor monitor_;
   Supervisor supervisor_;  // before all threads
+  ServiceThreads service_threads_;
   WarningPublisher warnings_;
   ScenePublisher scene_;
   TouchesPublisher touches_;
