@@ -69,26 +69,27 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
           node, parameters_.initial(),
           {[this](const Worker::Job& job) { meshes_.changeStore(job); }, workpieces_, frame_motions_, monitor_}),
       path_tests_({parameters_, frames_, workpieces_, monitor_, &frame_motions_}),
-      check_sweep_(private_node, path_tests_),
-      check_trajectory_(private_node, path_tests_),
-      predict_(private_node, parameters_, workpieces_,
+      check_sweep_(private_node, service_threads_, path_tests_),
+      check_trajectory_(private_node, service_threads_, path_tests_),
+      predict_(private_node, service_threads_, parameters_, workpieces_,
                [this](sweep_guard_core::Duration horizon) { return guard_thread_.predictMotion(horizon); }),
       controls_(
-          private_node, parameters_, monitor_, workpieces_,
+          private_node, parameters_, monitor_, workpieces_, service_threads_,
           {[this] { guard_thread_.reset(); }, [this](const std::string& id) { return guard_thread_.acknowledge(id); },
            [this] { touches_.reset(); }}),
-      intend_(private_node, {parameters_, frames_, workpieces_, intentions_}),
-      attach_(private_node, {parameters_, frames_, workpieces_, monitor_},
+      intend_(private_node, service_threads_, {parameters_, frames_, workpieces_, intentions_}),
+      attach_(private_node, service_threads_, {parameters_, frames_, workpieces_, monitor_},
               {[this] { return guard_thread_.newestPose(); },
                [this](const auto& before, const auto& next, const auto& also) {
                  guard_thread_.exchangeTool(before, next, also);
                }}),
-      reconfigure_server_(private_node, parameters_, [this](const auto& next) { apply(next); }),
+      reconfigure_server_(private_node, service_threads_, master_watch_.thread(), parameters_,
+                          [this](const auto& next) { apply(next); }),
       diagnostics_(node, private_node,
                    {parameters_, poses_, meshes_, workpieces_, allowed_, monitor_, statistics_, reconfigure_server_,
                     supervisor_}),
       watchdog_(frames_, workpieces_, monitor_, warnings_, [this] { poses_.applyLateChanges(); }),
-      peer_watch_([this, warning = sweep_guard_core::Warning()]() mutable {
+      peer_watch_(master_watch_.thread(), [this, warning = sweep_guard_core::Warning()]() mutable {
         monitor_.warning(now(), warning);
         return (warning.reasons & kSilentInputs) != 0;
       }) {
@@ -108,17 +109,10 @@ void SweepGuardNode::start() {
   other_tools_.start(supervisor_);
   poses_.start(supervisor_);
   path_tests_.start(supervisor_);
-  check_sweep_.start(supervisor_);
-  check_trajectory_.start(supervisor_);
-  predict_.start(supervisor_);
-  controls_.start(supervisor_);
-  intend_.start(supervisor_);
-  attach_.start(supervisor_);
-  reconfigure_server_.start(supervisor_);
+  service_threads_.start(supervisor_);
   reports_.start(supervisor_, {"reports", sweep_guard_core::Stage::kPublish});
   cross_check_.start(supervisor_);
   master_watch_.start(supervisor_);
-  peer_watch_.start(supervisor_);
   supervisor_.start();
   logStart();
 }
@@ -129,6 +123,9 @@ SweepGuardNode::~SweepGuardNode() {
   reports_.stop();       // its calls use what is declared after it
   master_watch_.stop();  // its thread uses the supervisor, which is declared after it
   guard_thread_.stop();
+  path_tests_.stop();
+  predict_.stop();
+  service_threads_.stop();  // its calls use what is declared after it
 }
 
 void SweepGuardNode::apply(const std::shared_ptr<const Parameters>& wanted) {

@@ -19,6 +19,7 @@
 #include "ros/service/controls.h"
 #include "ros/service/intend.h"
 #include "ros/service/predict.h"
+#include "ros/service/service_threads.h"
 #include "ros/threads/supervisor.h"
 #include "ros/threads/timer_thread.h"
 
@@ -50,6 +51,7 @@ class SweepGuardNode {
   sweep_guard_core::WorkQueue queue_;
   sweep_guard_core::WarningMonitor monitor_;
   Supervisor supervisor_;  // before all threads
+  ServiceThreads service_threads_;
   WarningPublisher warnings_;
   ScenePublisher scene_;
   TouchesPublisher touches_;

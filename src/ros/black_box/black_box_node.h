@@ -45,7 +45,9 @@ class BlackBoxNode {
   const std::vector<RecordedTopic> topics_;
   QueueThread thread_;
   std::vector<ros::Subscriber> subscribers_;  // in the order of the topics
-  LimitedCalls calls_{"save"};
+  QueueThread saves_;
+  QueueThread refusals_;
+  LimitedCalls calls_{saves_, refusals_};
   ros::ServiceServer save_;
   BlackBoxDiagnostics diagnostics_;
   TimerThread ticks_;

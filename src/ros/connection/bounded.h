@@ -59,19 +59,11 @@ class BoundedMessages : public ros::SubscriptionCallbackHelperT<const ros::Messa
       checkMessage<Msg>({message.buffer, message.length}, max_size_);
       return Base::deserialize(message);
     } catch (const std::bad_alloc& error) {
-      ThreadTop::reportFailure(error.what());
+      throw PassesRoscpp{error.what()};
     } catch (const std::exception& error) {
       refusals_->pass(error.what());
     }
     return {};
-  }
-
-  void call(ros::SubscriptionCallbackHelperCallParams& params) override {
-    try {
-      Base::call(params);
-    } catch (const std::exception& error) {  // roscpp would only log it
-      ThreadTop::reportFailure(error.what());
-    }
   }
 
  private:

@@ -24,6 +24,7 @@ namespace {
 using XmlRpc::XmlRpcValue;
 
 constexpr auto kMasterPeriod = std::chrono::seconds(1);
+constexpr auto kBriefCall = std::chrono::milliseconds(200);
 constexpr int kChecksPerLook = 3;  // for publishers that are missing
 // Those that roscpp and nodelet advertise.
 constexpr std::array kServicesOfTheProcess = {"get_loggers", "list", "load_nodelet", "set_logger_level",
@@ -36,14 +37,10 @@ MasterWatch::MasterWatch(const ros::NodeHandle& private_node, std::function<Para
       settings_(std::move(settings)),
       service_address_("rosrpc://" + ros::network::getHost() + ":" +
                        std::to_string(ros::ConnectionManager::instance()->getTCPPort())),
-      call_(kCallTimeout, stopping_),
+      call_(thread_.call()),
+      brief_call_(kBriefCall, thread_.stopping()),
       master_(identity()) {
   thread_.every(kMasterPeriod, [this] { checkOrLog(); });
-}
-
-void MasterWatch::stop() {
-  stopping_ = true;
-  thread_.stop();
 }
 
 void MasterWatch::checkOrLog() {
@@ -57,17 +54,19 @@ void MasterWatch::checkOrLog() {
 // Those that run without roscore have no run id, and in a container each may have the same process id.
 std::optional<std::string> MasterWatch::identity() const {
   const std::string& uri = ros::master::getURI();
-  const auto process = call_.call(uri, "getPid", {});
+  const auto process = (answers_ ? call_ : brief_call_).call(uri, "getPid", {});
+  if (!process) return std::nullopt;
   const auto run_id = call_.call(uri, "getParam", {XmlRpcValue("/run_id")});
-  if (!process || !run_id) return std::nullopt;
+  if (!run_id) return std::nullopt;
   return process->value.toXml() + run_id->value.toXml();
 }
 
 void MasterWatch::check() {
   const auto master = identity();
-  const auto node = call_.call(ros::master::getURI(), "lookupNode", {XmlRpcValue(ros::this_node::getName())});
-  const bool answers = master && node;
-  if (stopping_ || ros::isShuttingDown()) return;
+  std::optional<XmlRpcCall::Answer> node;
+  if (master) node = call_.call(ros::master::getURI(), "lookupNode", {XmlRpcValue(ros::this_node::getName())});
+  const bool answers = node.has_value();
+  if (thread_.stopping() || ros::isShuttingDown()) return;
   if (answers_ && !answers) ROS_WARN("the ROS master does not answer: this node goes on with the connections it has");
   if (!answers_ && answers) ROS_WARN("the ROS master answers again");
   answers_ = answers;

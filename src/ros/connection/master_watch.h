@@ -2,14 +2,12 @@
 
 #include <xmlrpcpp/XmlRpc.h>
 
-#include <atomic>
 #include <functional>
 #include <optional>
 #include <string>
 
 #include "ros/connection/publisher_links.h"
-#include "ros/connection/xml_rpc_call.h"
-#include "ros/threads/timer_thread.h"
+#include "ros/threads/master_thread.h"
 #include "sweep_guard/ros/parameters/parameter_reader.h"
 
 namespace sweep_guard_ros {
@@ -24,15 +22,16 @@ class MasterWatch {
  public:
   /// @param settings  returns the private parameters as they are now. Any thread
   MasterWatch(const ros::NodeHandle& private_node, std::function<ParameterReader::Settings()> settings);
+
   ~MasterWatch() { stop(); }
   MasterWatch(const MasterWatch&) = delete;
   MasterWatch& operator=(const MasterWatch&) = delete;
 
+  MasterThread& thread() { return thread_; }  ///< for what else asks the master
+
   /// After topics and services were advertised; the supervisor must outlive the thread.
-  void start(Supervisor& supervisor) {
-    thread_.start(supervisor, {"master", sweep_guard_core::Stage::kOther, /*watched=*/false});
-  }
-  void stop();  ///< ends the running call
+  void start(Supervisor& supervisor) { thread_.start(supervisor); }
+  void stop() { thread_.stop(); }  ///< ends the running call
 
  private:
   void checkOrLog();
@@ -53,13 +52,13 @@ class MasterWatch {
   const std::string namespace_;
   const std::function<ParameterReader::Settings()> settings_;
   const std::string service_address_;  // at the start: roscpp's server is gone while the process shuts down
-  std::atomic<bool> stopping_ = false;
   bool answers_ = true;
   int checks_ = 0;
   PublishersOfTopics missing_;  // at the last look
-  const XmlRpcCall call_;
+  MasterThread thread_;
+  const XmlRpcCall& call_;
+  const XmlRpcCall brief_call_;        // of a master that did not answer: others use the thread
   std::optional<std::string> master_;  // identity of the one that knows this node
-  TimerThread thread_;
 };
 
 }  // namespace sweep_guard_ros

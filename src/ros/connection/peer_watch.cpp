@@ -76,14 +76,9 @@ void beginOthers(std::map<std::string, Probe>& probes) {
 
 }  // namespace
 
-PeerWatch::PeerWatch(std::function<bool()> input_may_be_silent)
-    : input_may_be_silent_(std::move(input_may_be_silent)), call_(kCallTimeout, stopping_) {
-  thread_.every(kPeerPeriod, [this] { checkOrLog(); });
-}
-
-PeerWatch::~PeerWatch() {
-  stopping_ = true;
-  thread_.stop();
+PeerWatch::PeerWatch(MasterThread& thread, std::function<bool()> input_may_be_silent)
+    : input_may_be_silent_(std::move(input_may_be_silent)), call_(thread.call()) {
+  thread.every(kPeerPeriod, [this] { checkOrLog(); });
 }
 
 void PeerWatch::checkOrLog() {

@@ -2,16 +2,15 @@
 
 #include <ros/ros.h>
 #include <ros/xmlrpc_manager.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
-#include <condition_variable>
 #include <csignal>
 #include <cstdlib>
-#include <mutex>
 #include <system_error>
-#include <thread>
 
 #include "common/run_program.h"
 #include "ros/output/start_failure.h"
@@ -37,20 +36,16 @@ class EndRequest {
   void await();
 
  private:
-  void run();
-
   const std::chrono::milliseconds time_to_end_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  bool awaited_ = false;
-  bool requested_ = false;
-  bool done_ = false;
-  std::thread thread_;
 };
 
 std::array<int, 2> request_pipe;  // a signal handler may only write
+std::atomic<bool> ends_at_once = true;
 
-void request(int /*signal*/ = 0) {
+void endNow(int /*signal*/) { std::_Exit(EXIT_SUCCESS); }
+
+void request(int signal = 0) {
+  if (ends_at_once) endNow(signal);
   const int before = errno;
   const char byte = 0;
   [[maybe_unused]] const auto written = write(request_pipe[1], &byte, 1);
@@ -62,38 +57,30 @@ void onShutdownCall(XmlRpc::XmlRpcValue& parameters, XmlRpc::XmlRpcValue& result
   result = ros::xmlrpc::responseInt(1, "", 0);
 }
 
+void alarmIn(std::chrono::milliseconds time) {
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(time);
+  const itimerval timer{{}, {seconds.count(), std::chrono::microseconds(time - seconds).count()}};
+  setitimer(ITIMER_REAL, &timer, nullptr);
+}
+
 EndRequest::EndRequest(std::chrono::milliseconds time_to_end) : time_to_end_(time_to_end) {
   if (pipe(request_pipe.data()) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
   ros::XMLRPCManager::instance()->bind("shutdown", onShutdownCall);
-  thread_ = std::thread([this] { run(); });
   std::signal(SIGINT, request);
   std::signal(SIGTERM, request);
+  std::signal(SIGALRM, endNow);
 }
 
 EndRequest::~EndRequest() {
-  {
-    const std::lock_guard lock(mutex_);
-    done_ = true;
-  }
-  changed_.notify_all();
-  request();
-  thread_.join();
+  ends_at_once = false;
+  alarmIn(std::chrono::milliseconds(0));
 }
 
 void EndRequest::await() {
-  std::unique_lock lock(mutex_);
-  awaited_ = true;
-  changed_.wait(lock, [this] { return requested_; });
-}
-
-void EndRequest::run() {
+  ends_at_once = false;
   char byte = 0;
   while (read(request_pipe[0], &byte, 1) < 0 && errno == EINTR) continue;
-  std::unique_lock lock(mutex_);
-  requested_ = true;
-  changed_.notify_all();
-  const auto done = [this] { return done_; };
-  if (!done() && (!awaited_ || !changed_.wait_for(lock, time_to_end_, done))) std::_Exit(EXIT_SUCCESS);
+  alarmIn(time_to_end_);
 }
 
 }  // namespace
