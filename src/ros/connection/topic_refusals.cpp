@@ -25,9 +25,13 @@ std::shared_ptr<TopicRefusals::Report> TopicRefusals::add(std::function<void(con
   return added;
 }
 
-void TopicRefusals::pass(const std::string& reason) {
+std::vector<std::weak_ptr<TopicRefusals::Report>> TopicRefusals::reports() const {
   const std::lock_guard lock(mutex_);
-  for (const auto& report : reports_) {
+  return reports_;
+}
+
+void TopicRefusals::pass(const std::string& reason) {
+  for (const auto& report : reports()) {
     if (const auto open = report.lock()) open->pass(reason);
   }
 }

@@ -25,7 +25,9 @@ class TopicRefusals {
   void pass(const std::string& reason);
 
  private:
-  std::mutex mutex_;
+  std::vector<std::weak_ptr<Report>> reports() const;
+
+  mutable std::mutex mutex_;
   std::vector<std::weak_ptr<Report>> reports_;
 };
 
