@@ -11,13 +11,12 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       guard_(private_node, state_),
       inputs_(node, state_, master_watch_.thread()),
       outputs_(node, private_node, state_, guard_, inputs_, master_watch_.thread()),
-      watchdog_(state_.frames, state_.workpieces, state_.monitor, state_.warnings,
-                [this] { inputs_.applyLateChanges(); }) {}
+      watchdog_(state_, [this] { inputs_.applyLateChanges(); }) {}
 
 // Not in the constructor: where one thread cannot be started, the destructor ends the others.
 void SweepGuardNode::start() {
   guard_.start();
-  watchdog_.start(state_.supervisor);
+  watchdog_.start();
   inputs_.start();
   outputs_.start();
   master_watch_.start(state_.supervisor);

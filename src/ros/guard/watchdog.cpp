@@ -13,25 +13,24 @@ constexpr auto kConsideredPeriod = std::chrono::seconds(1);
 
 }  // namespace
 
-Watchdog::Watchdog(Frames& frames, sweep_guard_core::WorkpieceStore& workpieces,
-                   sweep_guard_core::WarningMonitor& monitor, WarningPublisher& warnings,
-                   const std::function<void()>& often)
-    : frames_(frames), workpieces_(workpieces), monitor_(monitor), warnings_(warnings) {
+Watchdog::Watchdog(GuardState& state, const std::function<void()>& often) : state_(state) {
   thread_.every(kWatchPeriod, [this, often] {
     checkClock();
     often();
-    warnings_.publishIfDue();
+    state_.warnings.publishIfDue();
   });
-  thread_.every(kReflexPeriod, [this] { warnings_.publishReflex(); });
-  thread_.every(kConsideredPeriod, [this] { warnings_.publishConsidered(); });
+  thread_.every(kReflexPeriod, [this] { state_.warnings.publishReflex(); });
+  thread_.every(kConsideredPeriod, [this] { state_.warnings.publishConsidered(); });
 }
 
 void Watchdog::checkClock() {
   const auto jump = clocks_.jump(now().stamp, sweep_guard_core::suspendedTime());
-  frames_.checkClock();  // after it: a pose that comes after the jump was reported must not find transforms from before
+  // After it: a pose that comes after the jump was reported must not find transforms from before.
+  state_.frames.checkClock();
   if (!jump) return;
-  workpieces_.clearStamps();  // first: whoever sees the jump in a warning may send a workpiece with a stamp that counts
-  monitor_.timeJumped(*jump);
+  // First: whoever sees the jump in a warning may send a workpiece with a stamp that counts.
+  state_.workpieces.clearStamps();
+  state_.monitor.timeJumped(*jump);
   ROS_WARN("%s: tool poses are forgotten, workpieces with a timeout are stale", jump->c_str());
 }
 

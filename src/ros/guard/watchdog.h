@@ -2,12 +2,9 @@
 
 #include <functional>
 
-#include "guard/workpiece_store.h"
 #include "monitor/clock_watch.h"
-#include "ros/input/frames.h"
-#include "ros/output/warning_publisher.h"
+#include "ros/guard/guard_state.h"
 #include "ros/threads/timer_thread.h"
-#include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {
 
@@ -17,18 +14,14 @@ namespace sweep_guard_ros {
 class Watchdog {
  public:
   /// @param often  called every 10 ms
-  Watchdog(Frames& frames, sweep_guard_core::WorkpieceStore& workpieces, sweep_guard_core::WarningMonitor& monitor,
-           WarningPublisher& warnings, const std::function<void()>& often);
+  Watchdog(GuardState& state, const std::function<void()>& often);
 
-  void start(Supervisor& supervisor) { thread_.start(supervisor, {"warnings", sweep_guard_core::Stage::kMonitor}); }
+  void start() { thread_.start(state_.supervisor, {"warnings", sweep_guard_core::Stage::kMonitor}); }
 
  private:
   void checkClock();
 
-  Frames& frames_;
-  sweep_guard_core::WorkpieceStore& workpieces_;
-  sweep_guard_core::WarningMonitor& monitor_;
-  WarningPublisher& warnings_;
+  GuardState& state_;
   sweep_guard_core::ClockWatch clocks_;
   TimerThread thread_;
 };

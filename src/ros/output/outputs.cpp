@@ -40,9 +40,7 @@ Outputs::Outputs(const ros::NodeHandle& node, const ros::NodeHandle& private_nod
                }}),
       reconfigure_server_(private_node, service_threads_, master, state.parameters,
                           [this](const auto& wanted) { apply(wanted); }),
-      diagnostics_(node, private_node,
-                   {state.parameters, inputs.poses(), inputs.meshes(), state.workpieces, state.allowed, state.monitor,
-                    state.statistics, reconfigure_server_, state.supervisor}) {
+      diagnostics_(node, private_node, state, inputs, reconfigure_server_) {
   reports_.every(kViewPeriod, [&state] { state.scene.publishView(); });
   reports_.every(kViewPeriod, [this] { intend_.publishIfChanged(); });
   reports_.every(kEarlyPeriod, [&inputs] { inputs.takeEarly(); });
