@@ -5,7 +5,7 @@
 #include <atomic>
 #include <thread>
 
-#include "motion/times.h"
+#include "monitor/warning_monitor_fixture.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_core {
@@ -17,7 +17,7 @@ constexpr int kTasks = 16;
 
 QueuedPose receivedAt(int ms) {
   QueuedPose queued;
-  queued.pose.received = steadyAt(ms);
+  queued.pose.received = at(ms).steady;
   return queued;
 }
 
@@ -56,7 +56,7 @@ TEST(WorkQueueTest, APoseReplacesTheNewestOfAFullQueueAndSaysSo) {
     ASSERT_TRUE(queue.take(taken));
     for (const QueuedPose& queued : taken.poses) {
       ++poses;
-      ASSERT_EQ(queued.pose.received, steadyAt(poses == kPoses ? 100001 : static_cast<int>(poses - 1)));
+      ASSERT_EQ(queued.pose.received, at(poses == kPoses ? 100001 : static_cast<int>(poses - 1)).steady);
     }
   }
   EXPECT_EQ(poses, kPoses);
@@ -74,12 +74,12 @@ TEST(WorkQueueTest, TakesNoMorePosesThanTheGuardKeeps) {
   EXPECT_EQ(taken.tasks.size(), 1U);
   EXPECT_TRUE(queue.hasPoses());
   queue.swept({});
-  EXPECT_EQ(queue.waitingSince(), steadyAt(kAtOnce));
+  EXPECT_EQ(queue.waitingSince(), at(kAtOnce).steady);
   queue.push(receivedAt(100000));
   ASSERT_TRUE(queue.take(taken));
   ASSERT_EQ(taken.poses.size(), 8U);
-  EXPECT_EQ(taken.poses.front().pose.received, steadyAt(kAtOnce));
-  EXPECT_EQ(taken.poses.back().pose.received, steadyAt(100000));
+  EXPECT_EQ(taken.poses.front().pose.received, at(kAtOnce).steady);
+  EXPECT_EQ(taken.poses.back().pose.received, at(100000).steady);
   EXPECT_TRUE(taken.tasks.empty());
 }
 
@@ -87,15 +87,15 @@ TEST(WorkQueueTest, KnowsSinceWhenTheOldestPoseWaits) {
   WorkQueue queue;
   EXPECT_FALSE(queue.waitingSince());
   for (const int ms : {10, 20, 30}) queue.push(receivedAt(ms));
-  EXPECT_EQ(queue.waitingSince(), steadyAt(10));
+  EXPECT_EQ(queue.waitingSince(), at(10).steady);
   WorkQueue::Work taken;
   ASSERT_TRUE(queue.take(taken));
   queue.push(receivedAt(40));
-  EXPECT_EQ(queue.waitingSince(), steadyAt(10));  // taken, and not swept
-  queue.swept(steadyAt(30));
-  EXPECT_EQ(queue.waitingSince(), steadyAt(30));
+  EXPECT_EQ(queue.waitingSince(), at(10).steady);  // taken, and not swept
+  queue.swept(at(30).steady);
+  EXPECT_EQ(queue.waitingSince(), at(30).steady);
   queue.swept({});
-  EXPECT_EQ(queue.waitingSince(), steadyAt(40));
+  EXPECT_EQ(queue.waitingSince(), at(40).steady);
   ASSERT_TRUE(queue.take(taken));
   queue.swept({});
   EXPECT_FALSE(queue.waitingSince());
