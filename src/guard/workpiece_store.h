@@ -52,7 +52,9 @@ class WorkpieceStore {
 
   using OnChange = std::function<void(const Workpieces&)>;
 
-  /// @param on_change  called after every change with all snapshots, under the lock of the store
+  /// @param on_change  called after every change with all snapshots. Under the lock of the store, which it must not call:
+  ///     who takes a snapshot finds that it has been told. A mesh that is swept before it is known what contact with it is
+  ///     intended would cause a false warning
   explicit WorkpieceStore(OnChange on_change = [](const Workpieces&) {});
 
   /// Adds or replaces a workpiece, and sets `updates` and `path_length`: they continue if frame and triangles stay.

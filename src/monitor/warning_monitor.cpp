@@ -266,21 +266,24 @@ Time WarningMonitor::coveredUntil(const Instant& now) const {
 }
 
 std::string WarningMonitor::whyNotAcknowledged(const std::string& id, const Instant& now) const {
+  const Progress progress = readProgress();
   const std::lock_guard lock(mutex_);
-  return whyNotAcknowledgedLocked(id, now);
+  return whyNotAcknowledgedLocked(id, now, progress);
 }
 
-std::string WarningMonitor::whyNotAcknowledgedLocked(const std::string& id, const Instant& now) const {
+std::string WarningMonitor::whyNotAcknowledgedLocked(const std::string& id, const Instant& now,
+                                                     const Progress& progress) const {
   Warning warning;
-  computeLocked(now, warning);
+  computeLocked(now, progress, warning);
   if (warning.level != WarningLevel::kConsidered) return "only CONSIDERED can be acknowledged, not " + warning.text;
   if (findWorkpiece(workpieces_->newest(), id) != nullptr && warnings_->isWarnedOf(id, now)) return {};
   return "there is no warning of '" + id + "': " + warning.text;
 }
 
 std::string WarningMonitor::acknowledge(const std::string& id, const Instant& now) {
+  const Progress progress = readProgress();
   const std::lock_guard lock(mutex_);
-  std::string refusal = whyNotAcknowledgedLocked(id, now);
+  std::string refusal = whyNotAcknowledgedLocked(id, now, progress);
   if (refusal.empty()) warnings_->acknowledge(*findWorkpiece(workpieces_->newest(), id), now);
   return refusal;
 }
@@ -360,9 +363,10 @@ void WarningMonitor::disableLocked(const std::string& asked_by) {
 
 std::string WarningMonitor::disableBelow(WarningLevel level, const Instant& now, const std::string& asked_by) {
   {
+    const Progress progress = readProgress();
     const std::lock_guard lock(mutex_);
     Warning warning;
-    computeLocked(now, warning);
+    computeLocked(now, progress, warning);
     if (warning.level >= level) return warning.text;
     disableLocked(asked_by);
   }
@@ -414,23 +418,25 @@ void WarningMonitor::setLimits(const WarningLimits& limits) {
 }
 
 void WarningMonitor::warning(const Instant& now, Warning& warning) const {
+  const Progress progress = readProgress();
   const std::lock_guard lock(mutex_);
-  computeLocked(now, warning);
+  computeLocked(now, progress, warning);
 }
 
-void WarningMonitor::computeLocked(const Instant& now, Warning& warning) const {
+void WarningMonitor::computeLocked(const Instant& now, const Progress& progress, Warning& warning) const {
   inputs_.covered_until = coveredUntil(now);
-  inputs_.waiting_since = waiting_since_();
-  inputs_.hung = hung_();
+  inputs_.waiting_since = progress.waiting_since;
+  inputs_.hung = progress.hung;
   computeWarning(inputs_, now, limits_, warning);
 }
 
 std::string WarningMonitor::meshProblems(const Instant& now, const std::vector<std::string>& ids) const {
+  const char* const hung = hung_();
   const std::lock_guard lock(mutex_);
-  return sweep_guard_core::meshProblems(inputsAbout(ids), now, limits_);
+  return sweep_guard_core::meshProblems(inputsAbout(ids, hung), now, limits_);
 }
 
-WarningInputs WarningMonitor::inputsAbout(const std::vector<std::string>& ids) const {
+WarningInputs WarningMonitor::inputsAbout(const std::vector<std::string>& ids, const char* hung) const {
   const auto asked = [&](const std::string& id) {
     return ids.empty() || std::find(ids.begin(), ids.end(), id) != ids.end();
   };
@@ -454,7 +460,7 @@ WarningInputs WarningMonitor::inputsAbout(const std::vector<std::string>& ids) c
   tell(kCrosscheck, faults_->get(kCrosscheck));
   about.unread = inputs_.unread;
   if (inputs_.failure && inputs_.failure->lasting) about.failure = inputs_.failure;
-  about.hung = hung_();
+  about.hung = hung;
   return about;
 }
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "ros/process.h"
+#include "ros/process/process.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/parameters/parameter_reader.h"
 

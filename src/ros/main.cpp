@@ -1,6 +1,6 @@
 #include "ros/node.h"
-#include "ros/process.h"
-#include "ros/run_node.h"
+#include "ros/process/process.h"
+#include "ros/process/run_node.h"
 
 int main(int argc, char** argv) {
   return sweep_guard_ros::runNode("sweep_guard", argc, argv, [&] {

@@ -1,26 +1,11 @@
 #pragma once
 
-#include "ros/cross_check_thread.h"
-#include "ros/guard_thread.h"
-#include "ros/input/mesh_input.h"
-#include "ros/input/other_tools.h"
-#include "ros/input/pose_input.h"
-#include "ros/master_watch.h"
-#include "ros/output/diagnostics.h"
-#include "ros/output/scene_publisher.h"
-#include "ros/output/touches_publisher.h"
-#include "ros/output/warning_publisher.h"
-#include "ros/parameters/reconfigure_server.h"
-#include "ros/peer_watch.h"
-#include "ros/service/attach.h"
-#include "ros/service/check_sweep.h"
-#include "ros/service/check_trajectory.h"
-#include "ros/service/controls.h"
-#include "ros/service/intend.h"
-#include "ros/service/predict.h"
-#include "ros/threads/supervisor.h"
-#include "ros/threads/timer_thread.h"
-#include "ros/watchdog.h"
+#include "ros/connection/master_watch.h"
+#include "ros/guard/guard_runner.h"
+#include "ros/guard/guard_state.h"
+#include "ros/guard/watchdog.h"
+#include "ros/input/inputs.h"
+#include "ros/output/outputs.h"
 
 namespace sweep_guard_ros {
 
@@ -40,43 +25,15 @@ class SweepGuardNode {
   const Parameters& parameters() const { return parameters_.initial(); }  ///< at the start
 
  private:
-  void apply(const std::shared_ptr<const Parameters>& wanted);
   void logStart() const;
 
-  // Members use only earlier members. Exception: the monitor reports faults to warnings_ and asks
-  // supervisor_, which reports failures to warnings_ and statistics_.
   LiveParameters parameters_;
   MasterWatch master_watch_;  // before what registers at the master
-  WorkQueue queue_;
-  sweep_guard_core::WarningMonitor monitor_;
-  Supervisor supervisor_;  // before all threads
-  WarningPublisher warnings_;
-  ScenePublisher scene_;
-  TouchesPublisher touches_;
-  TimerThread reports_;
-  TimerThread::Timer& marker_timer_;
-  sweep_guard_core::SweepStatistics statistics_;
-  Frames frames_;
-  sweep_guard_core::IntentionStore intentions_;
-  sweep_guard_core::AllowedMatches allowed_;
-  sweep_guard_core::WorkpieceStore workpieces_;
-  sweep_guard_core::FrameMotionStore frame_motions_;
-  CrossCheckThread cross_check_;
-  GuardThread guard_thread_;
-  PoseInput poses_;
-  MeshInput meshes_;
-  OtherTools other_tools_;
-  PathTests path_tests_;
-  CheckSweepService check_sweep_;
-  CheckTrajectoryService check_trajectory_;
-  PredictService predict_;
-  Controls controls_;
-  IntendService intend_;
-  AttachService attach_;
-  ReconfigureServer reconfigure_server_;
-  Diagnostics diagnostics_;
+  GuardState state_;
+  GuardRunner guard_;
+  Inputs inputs_;
+  Outputs outputs_;
   Watchdog watchdog_;
-  PeerWatch peer_watch_;
 };
 
 }  // namespace sweep_guard_ros

@@ -9,7 +9,7 @@
 #include "guard/workpiece_store.h"
 #include "input.h"
 #include "require.h"
-#include "ros/bounded.h"
+#include "ros/connection/bounded.h"
 #include "ros/input/frames.h"
 #include "ros/input/other_tools.h"
 #include "ros/input/pose_input.h"
@@ -91,9 +91,9 @@ class World {
     bytesOf(sweep_guard_ros::toMsg(warning));
     for (const auto& workpiece : store_.snapshot()) check(*workpiece);
     for (const auto& [frame, motion] : *frame_motions_.get()) check(*motion);
-    sweep_guard_ros::WorkQueue::Work work;
+    sweep_guard_core::WorkQueue::Work work;
     if (queue_.hasPoses()) queue_.take(work);
-    for (const sweep_guard_ros::QueuedPose& queued : work.poses) {
+    for (const sweep_guard_core::QueuedPose& queued : work.poses) {
       check(queued.pose.X_WT);
       for (const auto& [frame, X_WM] : queued.pose.X_WM) check(X_WM);
     }
@@ -221,7 +221,7 @@ class World {
   const ros::NodeHandle node_;
   sweep_guard_core::WarningMonitor monitor_;
   sweep_guard_core::WorkpieceStore store_;
-  sweep_guard_ros::WorkQueue queue_;
+  sweep_guard_core::WorkQueue queue_;
   sweep_guard_ros::Frames frames_;
   sweep_guard_core::FrameMotionStore frame_motions_;
   sweep_guard_ros::LiveParameters live_;

@@ -1,4 +1,4 @@
-// Requests to the services of the guard, as bytes from the wire. They run in the services' own threads, one at a time. Not
+// Requests to the services of the guard, as bytes from the wire. They run in the threads of the services, one at a time. Not
 // ~set_parameters, which is the target `parameters`.
 #include <cmath>
 #include <future>
@@ -76,14 +76,15 @@ class World {
         guard_(*live_.initial().tool, sweep_guard_core::makeDetector("halfspace"), live_.initial().guard),
         path_tests_({live_, frames_, store_, monitor_, /*frame_motions=*/nullptr, makeDetector}),
         robot_tests_({robot_live_, frames_, store_, monitor_, /*frame_motions=*/nullptr, makeDetector}),
-        check_sweep_(node_, path_tests_),
-        check_trajectory_(robot_node_, robot_tests_),
-        predict_(node_, live_, store_, [this](sweep_guard_core::Duration end) { return motion(end); }),
-        intend_(node_, {live_, frames_, store_, intentions_}),
-        attach_(node_, {live_, frames_, store_, monitor_},
+        check_sweep_(node_, service_threads_, path_tests_),
+        check_trajectory_(robot_node_, service_threads_, robot_tests_),
+        predict_(node_, service_threads_, live_, store_,
+                 [this](sweep_guard_core::Duration end) { return motion(end); }),
+        intend_(node_, service_threads_, {live_, frames_, store_, intentions_}),
+        attach_(node_, service_threads_, {live_, frames_, store_, monitor_},
                 {[this] { return newestPose(); },
                  [this](const auto& /*before*/, const auto& next, const auto& /*also*/) { exchange(*next); }}),
-        controls_(node_, live_, monitor_, store_,
+        controls_(node_, live_, monitor_, store_, service_threads_,
                   {[] {}, [this](const std::string& id) { return acknowledge(id); }, [] {}}) {
     const sweep_guard_core::TriangleMesh mesh({{-kHalfWidth, -kHalfWidth, 0},
                                                {kHalfWidth, -kHalfWidth, 0},
@@ -102,12 +103,7 @@ class World {
     }
     path_tests_.start(supervisor_);
     robot_tests_.start(supervisor_);
-    check_sweep_.start(supervisor_);
-    check_trajectory_.start(supervisor_);
-    predict_.start(supervisor_);
-    intend_.start(supervisor_);
-    attach_.start(supervisor_);
-    controls_.start(supervisor_);
+    service_threads_.start(supervisor_);
   }
 
   void call(Input& input) {
@@ -366,6 +362,7 @@ class World {
   const ros::NodeHandle node_;
   const ros::NodeHandle robot_node_;
   sweep_guard_ros::Supervisor supervisor_{sweep_guard_ros::Process::kShared};
+  sweep_guard_ros::ServiceThreads service_threads_;
   const sweep_guard_ros::LiveParameters live_;
   const sweep_guard_ros::LiveParameters robot_live_;
   sweep_guard_core::WarningMonitor monitor_;

@@ -1,4 +1,4 @@
-#include "ros/bounded.h"
+#include "ros/connection/bounded.h"
 
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <geometry_msgs/PoseStamped.h>

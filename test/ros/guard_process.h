@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "ros/xml_rpc_call.h"
+#include "ros/connection/xml_rpc_call.h"
 
 namespace sweep_guard_ros {
 

@@ -1,5 +1,5 @@
 // The thread that sweeps, with a detector that says when it is asked. The guard's parts run in this process.
-#include "ros/guard_thread.h"
+#include "ros/guard/guard_thread.h"
 
 #include <gtest/gtest.h>
 #include <ros/callback_queue.h>
@@ -74,7 +74,7 @@ class GuardThreadTest : public ::testing::Test {
   ros::NodeHandle node_ = privateNode();
   LiveParameters parameters_{loadParameters(node_)};
   Supervisor supervisor_{Process::kShared};
-  WorkQueue queue_;
+  sweep_guard_core::WorkQueue queue_;
   sweep_guard_core::WarningMonitor monitor_{parameters_.initial().limits};
   sweep_guard_core::WorkpieceStore workpieces_{[this](const auto& workpieces) { monitor_.setWorkpieces(workpieces); }};
   WarningPublisher warnings_{node_, parameters_, monitor_};

@@ -1,4 +1,4 @@
-#include "ros/host_address.h"
+#include "ros/connection/host_address.h"
 
 #include <gtest/gtest.h>
 

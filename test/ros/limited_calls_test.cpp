@@ -1,4 +1,5 @@
-// Of eight calls of a service, of which the first one lasts, one runs, four wait, and three are answered at once.
+// Of eight calls of a service, of which the first one lasts, one runs, four wait, and three are answered at once. Calls of
+// other services that have another thread do not wait for it.
 #include "ros/service/limited_calls.h"
 
 #include <dynamic_reconfigure/Reconfigure.h>
@@ -28,37 +29,95 @@ constexpr int kBusy = kCalls - 1 - LimitedCalls::kMaxWaiting;
 
 class Call : public ros::CallbackInterface {
  public:
-  explicit Call(std::promise<std::string>& refused) : refused_(refused) {}
+  Call(const LimitedCalls& calls, std::promise<std::string>& refused) : calls_(calls), refused_(refused) {}
   CallResult call() override {
-    refused_.set_value(refusal<sweep_guard_core::Error>(LimitedCalls::throwIfBusy));
+    refused_.set_value(refusal<sweep_guard_core::Error>([this] { calls_.throwIfBusy(); }));
     return Success;
   }
 
  private:
+  const LimitedCalls& calls_;
   std::promise<std::string>& refused_;
 };
 
 TEST(LimitedCallsTest, CallsThatCameBeforeTheStartAreRefusedLikeLaterOnes) {
   Supervisor supervisor{Process::kShared};
-  LimitedCalls calls("calls");
+  ServiceThreads threads;
+  LimitedCalls calls(threads.brief, threads.refusals);
   std::array<std::promise<std::string>, kCalls> refused;
-  for (auto& one : refused) calls.addCallback(boost::make_shared<Call>(one), /*owner=*/0);
-  calls.start(supervisor);
+  for (auto& one : refused) calls.addCallback(boost::make_shared<Call>(calls, one), /*owner=*/0);
+  threads.start(supervisor);
   int count = 0;
   for (auto& one : refused) count += has(one.get_future().get(), "BUSY: 4 calls wait already") ? 1 : 0;
   EXPECT_EQ(count, kBusy);
+  threads.stop();
+}
+
+// Lasts until it is released.
+class LongCall : public ros::CallbackInterface {
+ public:
+  CallResult call() override {
+    begun_.set_value();
+    released_.get_future().wait();
+    return Success;
+  }
+  void awaitBegin() { begun_.get_future().wait(); }
+  void release() { released_.set_value(); }
+
+ private:
+  std::promise<void> begun_;
+  std::promise<void> released_;
+};
+
+TEST(LimitedCallsTest, ALongCallHoldsUpNeitherBriefCallsNorRefusals) {
+  Supervisor supervisor{Process::kShared};
+  ServiceThreads threads;
+  threads.start(supervisor);
+  LimitedCalls lasting(threads.lasting, threads.refusals);
+  LimitedCalls brief(threads.brief, threads.refusals);
+  const auto held = boost::make_shared<LongCall>();
+  lasting.addCallback(held, /*owner=*/0);
+  held->awaitBegin();
+  std::promise<std::string> answered;
+  brief.addCallback(boost::make_shared<Call>(brief, answered), /*owner=*/1);
+  EXPECT_EQ(answered.get_future().get(), "");
+  std::array<std::promise<std::string>, LimitedCalls::kMaxWaiting> waiting;
+  for (auto& one : waiting) lasting.addCallback(boost::make_shared<Call>(lasting, one), /*owner=*/0);
+  std::promise<std::string> refused;
+  lasting.addCallback(boost::make_shared<Call>(lasting, refused), /*owner=*/0);
+  EXPECT_TRUE(has(refused.get_future().get(), "BUSY: 4 calls wait already"));
+  held->release();
+  for (auto& one : waiting) EXPECT_EQ(one.get_future().get(), "");
+  threads.stop();
+}
+
+// Each service has a limit of its own, also where they share a thread.
+TEST(LimitedCallsTest, ABusyServiceLeavesRoomForAnother) {
+  Supervisor supervisor{Process::kShared};
+  ServiceThreads threads;
+  LimitedCalls busy(threads.brief, threads.refusals);
+  LimitedCalls other(threads.brief, threads.refusals);
+  std::array<std::promise<std::string>, kCalls> refused;
+  for (auto& one : refused) busy.addCallback(boost::make_shared<Call>(busy, one), /*owner=*/0);
+  std::promise<std::string> answered;
+  other.addCallback(boost::make_shared<Call>(other, answered), /*owner=*/1);
+  threads.start(supervisor);
+  EXPECT_EQ(answered.get_future().get(), "");
+  for (auto& one : refused) one.get_future().wait();
+  threads.stop();
 }
 
 // The services of a guard that answers none before it is released.
 class LimitedServicesTest : public testing::Test {
  protected:
   LimitedServicesTest() {
-    controls_.start(supervisor_);
-    predict_.start(supervisor_);
-    reconfigure_server_.start(supervisor_);
+    threads_.start(supervisor_);
     spinner_.start();
   }
-  ~LimitedServicesTest() override { release(); }
+  ~LimitedServicesTest() override {
+    release();
+    threads_.stop();
+  }
 
   void release() {
     if (!std::exchange(released_, true)) release_.set_value();
@@ -107,23 +166,27 @@ class LimitedServicesTest : public testing::Test {
   std::atomic<int> answered_ = 0;
   LiveParameters parameters_{loadParameters(node_)};
   Supervisor supervisor_{Process::kShared};
+  ServiceThreads threads_;
+  MasterThread master_thread_;
   sweep_guard_core::WorkpieceStore workpieces_;
   sweep_guard_core::WarningMonitor monitor_{parameters_.initial().limits};
   Controls controls_{node_,
                      parameters_,
                      monitor_,
                      workpieces_,
+                     threads_,
                      {[this] { stuck_.wait(); },
                       [this](const std::string& id) {
                         stuck_.wait();
                         return id;
                       },
                       [] {}}};
-  PredictService predict_{node_, parameters_, workpieces_, [this](auto) -> std::future<PredictService::Motion> {
+  PredictService predict_{node_, threads_, parameters_, workpieces_,
+                          [this](auto) -> std::future<PredictService::Motion> {
                             stuck_.wait();
                             throw sweep_guard_core::Error("no tool pose yet");
                           }};
-  ReconfigureServer reconfigure_server_{node_, parameters_, [this](const auto& next) {
+  ReconfigureServer reconfigure_server_{node_, threads_, master_thread_, parameters_, [this](const auto& next) {
                                           stuck_.wait();
                                           parameters_.set(next);
                                         }};

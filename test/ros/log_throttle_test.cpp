@@ -1,4 +1,4 @@
-#include "ros/log_throttle.h"
+#include "ros/process/log_throttle.h"
 
 #include <gtest/gtest.h>
 

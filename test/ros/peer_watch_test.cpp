@@ -19,7 +19,7 @@
 #include "child_process.h"
 #include "guard_probe.h"
 #include "guard_process.h"
-#include "ros/publisher_links.h"
+#include "ros/connection/publisher_links.h"
 
 namespace sweep_guard_ros {
 namespace {

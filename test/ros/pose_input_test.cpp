@@ -1,17 +1,12 @@
 // The input of poses in one process with their publisher, where a published message is queued at once.
 #include "ros/input/pose_input.h"
 
-#include <gtest/gtest.h>
-#include <ros/ros.h>
-#include <tf2_msgs/TFMessage.h>
-
 #include <boost/make_shared.hpp>
-#include <future>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include "sweep_guard/ros/conversions.h"
+#include "base_and_arm.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -24,39 +19,25 @@ boost::shared_ptr<geometry_msgs::PoseStamped> poseIn(const std::string& frame, r
   return pose;
 }
 
-// No load delays anything that long.
-Parameters patient() {
-  Parameters parameters = loadParameters(ros::NodeHandle("~"));
-  parameters.limits.pose_timeout = std::chrono::minutes(1);
-  return parameters;
-}
-
-class PoseInputTest : public testing::Test {
+class PoseInputTest : public BaseAndArm {
  protected:
   PoseInputTest() { input_.start(supervisor_); }
 
   // Takes from the queue up to the pose of this stamp.
   std::vector<sweep_guard_core::PoseWithFrames> takeUpTo(ros::Time stamp) {
     std::vector<sweep_guard_core::PoseWithFrames> taken;
-    WorkQueue::Work work;
+    sweep_guard_core::WorkQueue::Work work;
     while (taken.empty() || taken.back().anew || taken.back().stamp != fromMsg(stamp)) {
       queue_.take(work);
-      for (const QueuedPose& queued : work.poses) taken.push_back(queued.pose);
+      for (const sweep_guard_core::QueuedPose& queued : work.poses) taken.push_back(queued.pose);
     }
     return taken;
   }
 
-  ros::NodeHandle node_;
-  const Parameters parameters_ = patient();
-  Supervisor supervisor_{Process::kShared};  // before all that has a thread
-  std::promise<void> changed_;
-  Frames frames_{node_, parameters_.max_message_size,
-                 [this](const std::string&, const std::string&) { changed_.set_value(); }};
   sweep_guard_core::WarningMonitor monitor_{parameters_.limits};
   const sweep_guard_core::WorkpieceStore workpieces_;
-  WorkQueue queue_;
+  sweep_guard_core::WorkQueue queue_;
   sweep_guard_core::FrameMotionStore frame_motions_;
-  const LiveParameters live_{parameters_};
   PoseInput input_{node_, live_, {frames_, workpieces_, monitor_, queue_, frame_motions_}};
   const ros::Publisher publisher_ = node_.advertise<geometry_msgs::PoseStamped>("tool_pose", 1);
 };
@@ -74,31 +55,12 @@ TEST_F(PoseInputTest, NoPoseOfALongBacklogIsLost) {
 
 class StaticBaseTest : public PoseInputTest {
  protected:
-  StaticBaseTest() {
-    frames_.start(supervisor_);
-    transforms_ = node_.advertise<tf2_msgs::TFMessage>("/tf", 10);
-    static_transforms_ = node_.advertise<tf2_msgs::TFMessage>("/tf_static", 10);
-  }
+  StaticBaseTest() { frames_.start(supervisor_); }
 
-  static tf2_msgs::TFMessage transform(const std::string& parent, const std::string& child, ros::Time stamp, double z) {
-    tf2_msgs::TFMessage message;
-    geometry_msgs::TransformStamped& one = message.transforms.emplace_back();
-    one.header.frame_id = parent;
-    one.header.stamp = stamp;
-    one.child_frame_id = child;
-    one.transform.translation.z = z;
-    one.transform.rotation.w = 1.0;
-    return message;
-  }
-  void placeBase(double z) { static_transforms_.publish(transform(parameters_.fixed_frame, "base", ros::Time(), z)); }
-  void moveArm(ros::Time stamp) { transforms_.publish(transform("base", "arm", stamp, 0.0)); }
   void publishPose(const std::string& frame, ros::Time stamp, double z) {
     const auto pose = poseIn(frame, stamp);
     pose->pose.position.z = z;
     publisher_.publish(pose);
-  }
-  void awaitFrame(const std::string& frame) const {
-    while (!frames_.newest(parameters_.fixed_frame, frame)) std::this_thread::yield();
   }
 
   struct Placed {
@@ -111,10 +73,6 @@ class StaticBaseTest : public PoseInputTest {
     for (const auto& pose : takeUpTo(stamp)) placed.push_back({pose.X_WT.translation().z(), pose.anew.has_value()});
     return placed;
   }
-
-  const ros::Time now_ = ros::Time::now();
-  ros::Publisher transforms_;
-  ros::Publisher static_transforms_;
 };
 
 TEST_F(StaticBaseTest, TheWayToThePoseAfterItIsInBothPlaces) {

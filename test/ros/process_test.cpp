@@ -1,4 +1,4 @@
-#include "ros/process.h"
+#include "ros/process/process.h"
 
 #include <gtest/gtest.h>
 #include <malloc.h>

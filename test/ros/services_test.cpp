@@ -17,8 +17,8 @@
 #include "guard/fake_detector.h"
 #include "guard_probe.h"
 #include "refusal.h"
-#include "ros/cross_check_thread.h"
-#include "ros/guard_thread.h"
+#include "ros/guard/cross_check_thread.h"
+#include "ros/guard/guard_thread.h"
 #include "ros/parameters/reconfigure_server.h"
 #include "ros/service/check_sweep.h"
 #include "ros/service/controls.h"
@@ -52,14 +52,18 @@ class ServicesTest : public ::testing::Test {
                         double deadline = kDeadline)
       : detector_record_{{}, 0, 0.0, 0.0, drop_every}, node_(privateNode(self_test, deadline)) {
     guard_thread_.start(supervisor_);
-    controls_.start(supervisor_);
-    reconfigure_server_.start(supervisor_);
     path_tests_.start(supervisor_);
-    check_sweep_.start(supervisor_);
+    service_threads_.start(supervisor_);
+    master_thread_.start(supervisor_);
     cross_check_.start(supervisor_);
     spinner_.start();
   }
-  ~ServicesTest() override { guard_thread_.stop(); }
+  ~ServicesTest() override {
+    guard_thread_.stop();
+    path_tests_.stop();
+    service_threads_.stop();
+    master_thread_.stop();
+  }
 
   static ros::NodeHandle privateNode(const std::string& self_test, double deadline) {
     ros::NodeHandle node("~");
@@ -153,7 +157,9 @@ class ServicesTest : public ::testing::Test {
   ros::NodeHandle node_;
   LiveParameters parameters_{loadParameters(node_)};
   Supervisor supervisor_{Process::kShared};
-  WorkQueue queue_;
+  ServiceThreads service_threads_;
+  MasterThread master_thread_;
+  sweep_guard_core::WorkQueue queue_;
   sweep_guard_core::WorkpieceStore workpieces_{[this](const auto& workpieces) { monitor_.setWorkpieces(workpieces); }};
   sweep_guard_core::WarningMonitor monitor_{parameters_.initial().limits};
   WarningPublisher warnings_{node_, parameters_, monitor_};
@@ -167,15 +173,17 @@ class ServicesTest : public ::testing::Test {
                          [this](const auto& /*name*/, const auto& /*options*/) {
                            return std::make_unique<sweep_guard_core::FakeDetector>(path_detector_record_);
                          }}};
-  CheckSweepService check_sweep_{node_, path_tests_};
+  CheckSweepService check_sweep_{node_, service_threads_, path_tests_};
   Controls controls_{
       node_,
       parameters_,
       monitor_,
       workpieces_,
+      service_threads_,
       {[this] { guard_thread_.reset(); }, [this](const std::string& id) { return guard_thread_.acknowledge(id); },
        [this] { touches_.reset(); }}};
-  ReconfigureServer reconfigure_server_{node_, parameters_, [this](const auto& next) { guard_thread_.apply(next); }};
+  ReconfigureServer reconfigure_server_{node_, service_threads_, master_thread_, parameters_,
+                                        [this](const auto& next) { guard_thread_.apply(next); }};
   ros::AsyncSpinner spinner_{1};
 };
 

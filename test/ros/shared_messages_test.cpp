@@ -12,7 +12,7 @@
 #include "listener.h"
 #include "nodelet_manager.h"
 #include "raw_message.h"
-#include "ros/bounded.h"
+#include "ros/connection/bounded.h"
 
 namespace sweep_guard_ros {
 namespace {

@@ -1,4 +1,4 @@
-#include "ros/sole_publisher.h"
+#include "ros/connection/sole_publisher.h"
 
 #include <gtest/gtest.h>
 

@@ -43,7 +43,7 @@ class WarningMonitor {
   /// @param on_fault  called after every fault, refusal, loss, drop, test of the detector and restart, except where a
   ///     function says otherwise, in the reporting thread, so maybe in several at once; may call the monitor; not empty
   /// @param waiting_since  returns when the oldest pose that is not yet swept was received; empty: none waits. Called
-  ///     by warning(), disableBelow() and acknowledge(), one at a time; must not call the monitor; not empty
+  ///     by warning(), disableBelow() and acknowledge(), maybe by several at once; not empty
   /// @param hung  returns the name of a thread that makes no progress, a text that outlives the monitor; null: none.
   ///     Called as the one before, and by meshProblems()
   explicit WarningMonitor(
@@ -225,6 +225,10 @@ class WarningMonitor {
   std::string meshProblems(const Instant& now, const std::vector<std::string>& ids) const;
 
  private:
+  struct Progress {  // of the threads
+    std::optional<SteadyTime> waiting_since;
+    const char* hung;
+  };
   struct Coverage {
     Timestamps pose;     // where the prediction began
     Time covered_until;  // for the workpieces tested
@@ -235,14 +239,15 @@ class WarningMonitor {
   void sweptBeforeJump(const SweepReport& report, const Checkpoint& checkpoint, SteadyTime now);
   bool isToBeSweptLocked(const Checkpoint& checkpoint) const;
   void disableLocked(const std::string& asked_by);
-  void computeLocked(const Instant& now, Warning& warning) const;
-  std::string whyNotAcknowledgedLocked(const std::string& id, const Instant& now) const;
+  Progress readProgress() const { return {waiting_since_(), hung_()}; }  // before the lock: these are call-backs
+  void computeLocked(const Instant& now, const Progress& progress, Warning& warning) const;
+  std::string whyNotAcknowledgedLocked(const std::string& id, const Instant& now, const Progress& progress) const;
   std::string refusal(const std::vector<std::string>& ids = {}) const;
   void meets(const Workpiece& workpiece, const std::vector<std::uint32_t>& triangles, SteadyTime now);
   void noteJump(const SweepReport& report, SteadyTime now);
   void addFailures(const std::vector<SweepFailure>& failures, const char* what);
   void beginCoverage(const Prediction& prediction);
-  WarningInputs inputsAbout(const std::vector<std::string>& ids) const;
+  WarningInputs inputsAbout(const std::vector<std::string>& ids, const char* hung) const;
   Time coveredUntil(const Instant& now) const;
   WarningInputs::OtherTool* findTool(const std::string& name);
 

@@ -37,7 +37,8 @@ void BlackBoxNode::start() {
   recorder_.start(supervisor_);
   thread_.start(supervisor_,
                 {"black box", sweep_guard_core::Stage::kReceive, /*watched=*/true, /*loses_latched=*/true});
-  calls_.start(supervisor_);
+  saves_.start(supervisor_, {"save", sweep_guard_core::Stage::kOther, /*watched=*/false});
+  refusals_.start(supervisor_, {"busy", sweep_guard_core::Stage::kOther, /*watched=*/false});
   ticks_.start(supervisor_, {"ticks"});
   reports_.start(supervisor_, {"reports", sweep_guard_core::Stage::kPublish});
   master_watch_.start(supervisor_);
@@ -50,6 +51,8 @@ BlackBoxNode::~BlackBoxNode() {
   ticks_.stop();
   reports_.stop();
   master_watch_.stop();  // its thread uses the supervisor, which is declared after it
+  saves_.stop();
+  refusals_.stop();
 }
 
 std::vector<ros::Subscriber> BlackBoxNode::subscribe(const ros::NodeHandle& node) {

@@ -10,7 +10,7 @@
 #include "ros/black_box/black_box_parameters.h"
 #include "ros/black_box/recorded_topics.h"
 #include "ros/black_box/recorder.h"
-#include "ros/master_watch.h"
+#include "ros/connection/master_watch.h"
 #include "ros/service/limited_calls.h"
 #include "ros/threads/queue_thread.h"
 #include "ros/threads/supervisor.h"
@@ -45,7 +45,9 @@ class BlackBoxNode {
   const std::vector<RecordedTopic> topics_;
   QueueThread thread_;
   std::vector<ros::Subscriber> subscribers_;  // in the order of the topics
-  LimitedCalls calls_{"save"};
+  QueueThread saves_;
+  QueueThread refusals_;
+  LimitedCalls calls_{saves_, refusals_};
   ros::ServiceServer save_;
   BlackBoxDiagnostics diagnostics_;
   TimerThread ticks_;

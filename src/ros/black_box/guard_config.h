@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "ros/xml_rpc_call.h"
+#include "ros/connection/xml_rpc_call.h"
 
 namespace sweep_guard_ros {
 

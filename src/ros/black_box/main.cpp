@@ -1,7 +1,7 @@
 #include "ros/black_box/black_box_node.h"
 #include "ros/parameters/parameters.h"
-#include "ros/process.h"
-#include "ros/run_node.h"
+#include "ros/process/process.h"
+#include "ros/process/run_node.h"
 
 // For a recording. roslaunch gives its nodes 15 s.
 constexpr auto kTimeToWrite = std::chrono::seconds(10);

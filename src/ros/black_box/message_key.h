@@ -3,7 +3,7 @@
 #include <string>
 
 #include "ros/black_box/recorded_topics.h"
-#include "ros/wire.h"
+#include "ros/connection/wire.h"
 
 namespace sweep_guard_ros {
 

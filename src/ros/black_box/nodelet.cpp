@@ -1,7 +1,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "ros/black_box/black_box_node.h"
-#include "ros/nodelet_of.h"
+#include "ros/process/nodelet_of.h"
 
 namespace sweep_guard_ros {
 using BlackBoxNodelet = NodeletOf<BlackBoxNode>;

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "ros/black_box/message_key.h"
-#include "ros/process.h"
+#include "ros/process/process.h"
 #include "sweep_guard/Warning.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"

@@ -19,9 +19,9 @@
 #include "ros/black_box/black_box_parameters.h"
 #include "ros/black_box/guard_config.h"
 #include "ros/black_box/recorded_topics.h"
-#include "ros/log_throttle.h"
+#include "ros/connection/wire.h"
+#include "ros/process/log_throttle.h"
 #include "ros/threads/background_thread.h"
-#include "ros/wire.h"
 
 namespace sweep_guard_ros {
 

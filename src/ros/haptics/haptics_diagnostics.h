@@ -3,8 +3,8 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 
 #include "ros/haptics/force_cycle.h"
-#include "ros/log_throttle.h"
 #include "ros/motion/output_watch.h"
+#include "ros/process/log_throttle.h"
 #include "ros/threads/real_time_request.h"
 
 namespace sweep_guard_ros {

@@ -2,10 +2,10 @@
 
 #include <optional>
 
+#include "ros/connection/master_watch.h"
 #include "ros/haptics/force_cycle.h"
 #include "ros/haptics/haptics_diagnostics.h"
 #include "ros/input/frames.h"
-#include "ros/master_watch.h"
 #include "ros/threads/real_time_request.h"
 #include "ros/threads/supervisor.h"
 #include "ros/threads/timer_thread.h"

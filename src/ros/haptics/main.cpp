@@ -2,8 +2,8 @@
 #include <memory>
 
 #include "ros/haptics/haptics_node.h"
-#include "ros/process.h"
-#include "ros/run_node.h"
+#include "ros/process/process.h"
+#include "ros/process/run_node.h"
 
 namespace {
 

@@ -194,6 +194,15 @@ Eigen::Isometry3d Frames::lookup(const std::string& target, const std::string& s
   }
 }
 
+std::optional<Eigen::Isometry3d> Frames::find(const std::string& target, const std::string& source,
+                                              sweep_guard_core::Time stamp) const {
+  try {
+    return lookup(target, source, stamp);
+  } catch (const FrameError&) {
+    return std::nullopt;
+  }
+}
+
 Eigen::Isometry3d Frames::lookup(const std::string& target, const std::string& source, sweep_guard_core::Time stamp,
                                  sweep_guard_core::Duration wait) const {
   const auto deadline = std::chrono::steady_clock::now() + wait;

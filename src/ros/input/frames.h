@@ -13,12 +13,12 @@
 #include <set>
 #include <string>
 
-#include "ros/bounded.h"
-#include "ros/gate.h"
+#include "ros/connection/bounded.h"
 #include "ros/input/frame_publishers.h"
 #include "ros/input/frame_tree.h"
 #include "ros/input/transform_clock.h"
-#include "ros/log_throttle.h"
+#include "ros/process/log_throttle.h"
+#include "ros/threads/gate.h"
 #include "ros/threads/queue_thread.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/time.h"
@@ -57,6 +57,10 @@ class Frames {
   /// Returns the pose of frame `source` in frame `target` at a stamp; stamp 0: the newest. Does not wait.
   /// @throws FrameError if there is none
   Eigen::Isometry3d lookup(const std::string& target, const std::string& source, sweep_guard_core::Time stamp) const;
+
+  /// Returns the same pose; empty: there is none.
+  std::optional<Eigen::Isometry3d> find(const std::string& target, const std::string& source,
+                                        sweep_guard_core::Time stamp) const;
 
   /// Returns the same pose, and waits up to `wait` on the steady clock for a transform that is late.
   Eigen::Isometry3d lookup(const std::string& target, const std::string& source, sweep_guard_core::Time stamp,

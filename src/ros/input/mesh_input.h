@@ -12,10 +12,10 @@
 
 #include "guard/workpiece_store.h"
 #include "monitor/input_record.h"
-#include "ros/bounded.h"
+#include "ros/connection/bounded.h"
 #include "ros/input/worker.h"
-#include "ros/log_throttle.h"
 #include "ros/parameters/parameters.h"
+#include "ros/process/log_throttle.h"
 #include "ros/threads/queue_thread.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 

@@ -138,10 +138,7 @@ bool MovingFrames::placeAnew(const std::string& frame, Followed& followed, Time 
 
 // tf may have forgotten it, or not know it yet: then the frame moves straight past it.
 void MovingFrames::sampleAt(const std::string& frame, Time stamp) {
-  try {
-    samples_.push_back({stamp, dependencies_.frames.lookup(fixed_frame_, frame, stamp)});
-  } catch (const FrameError&) {
-  }
+  if (const auto X = dependencies_.frames.find(fixed_frame_, frame, stamp)) samples_.push_back({stamp, *X});
 }
 
 void MovingFrames::keepOnly(const std::set<std::string>& moving) {

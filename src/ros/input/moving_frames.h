@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "monitor/input_record.h"
+#include "monitor/work_queue.h"
 #include "ros/input/frames.h"
-#include "ros/log_throttle.h"
-#include "ros/work_queue.h"
+#include "ros/process/log_throttle.h"
 #include "sweep_guard/guard/frame_motion.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
@@ -22,7 +22,7 @@ struct MovingFramesDependencies {
   Frames& frames;
   sweep_guard_core::FrameMotionStore& frame_motions;
   sweep_guard_core::WarningMonitor& monitor;
-  WorkQueue& queue;
+  sweep_guard_core::WorkQueue& queue;
   sweep_guard_core::InputRecord& record;  ///< of errors
 };
 

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "guard/workpiece_store.h"
-#include "ros/bounded.h"
+#include "ros/connection/bounded.h"
+#include "ros/connection/sole_publisher.h"
 #include "ros/input/worker.h"
-#include "ros/log_throttle.h"
 #include "ros/parameters/parameters.h"
-#include "ros/sole_publisher.h"
+#include "ros/process/log_throttle.h"
 #include "ros/threads/queue_thread.h"
 #include "sweep_guard/guard/frame_motion.h"
 #include "sweep_guard/monitor/warning_monitor.h"

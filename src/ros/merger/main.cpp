@@ -1,6 +1,6 @@
 #include "ros/merger/warning_merger_node.h"
 #include "ros/parameters/parameters.h"
-#include "ros/run_node.h"
+#include "ros/process/run_node.h"
 
 int main(int argc, char** argv) {
   return sweep_guard_ros::runNode("warning_merger", argc, argv, [&] {

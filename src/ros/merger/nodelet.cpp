@@ -1,7 +1,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "ros/merger/warning_merger_node.h"
-#include "ros/nodelet_of.h"
+#include "ros/process/nodelet_of.h"
 
 namespace sweep_guard_ros {
 using WarningMergerNodelet = NodeletOf<WarningMergerNode>;

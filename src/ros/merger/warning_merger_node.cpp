@@ -7,10 +7,10 @@
 #include <tuple>
 #include <utility>
 
+#include "ros/connection/sole_publisher.h"
 #include "ros/merger/heard_warning.h"
 #include "ros/output/flush.h"
 #include "ros/output/run_id.h"
-#include "ros/sole_publisher.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/monitor/reason.h"
@@ -72,7 +72,7 @@ WarningMergerNode::WarningMergerNode(const ros::NodeHandle& node, const ros::Nod
       merger_(readGuards(read), readTimeout(read)),
       newest_(merger_.guards().size()),
       updater_(node, private_node, private_node.getNamespace()),
-      peer_watch_([this] { return aGuardIsSilent(); }) {
+      peer_watch_(master_watch_.thread(), [this] { return aGuardIsSilent(); }) {
   read.number("diagnostic_period", 1.0, {0.0, std::numeric_limits<double>::infinity()});  // set by diagnostic_updater
   read.warnOfUnread();
   settings_ = read.settings();
@@ -108,7 +108,6 @@ void WarningMergerNode::start() {
   ticks_.start(supervisor_, {"ticks"});
   reports_.start(supervisor_, {"reports", sweep_guard_core::Stage::kPublish});
   master_watch_.start(supervisor_);
-  peer_watch_.start(supervisor_);
   supervisor_.start();
 }
 

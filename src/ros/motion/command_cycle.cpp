@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "ros/connection/own_services.h"
 #include "ros/motion/motion_status.h"
-#include "ros/own_services.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "ros/bounded.h"
+#include "ros/connection/bounded.h"
 #include "ros/motion/command_frames.h"
 #include "ros/motion/motion_parameters.h"
 #include "sweep_guard/motion/motion_guard.h"

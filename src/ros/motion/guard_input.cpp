@@ -3,8 +3,8 @@
 #include <memory>
 #include <utility>
 
+#include "ros/connection/sole_publisher.h"
 #include "ros/input/future_stamp.h"
-#include "ros/sole_publisher.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/ros/conversions.h"

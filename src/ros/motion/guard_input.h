@@ -11,9 +11,9 @@
 
 #include "common/pool.h"
 #include "monitor/input_record.h"
-#include "ros/bounded.h"
-#include "ros/log_throttle.h"
+#include "ros/connection/bounded.h"
 #include "ros/motion/guard_source.h"
+#include "ros/process/log_throttle.h"
 #include "ros/threads/queue_thread.h"
 #include "sweep_guard/motion/motion_guard.h"
 

@@ -1,5 +1,5 @@
 #include "ros/motion/motion_guard_node.h"
-#include "ros/run_node.h"
+#include "ros/process/run_node.h"
 
 int main(int argc, char** argv) {
   return sweep_guard_ros::runNode("motion_guard", argc, argv, [&] {

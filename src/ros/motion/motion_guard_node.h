@@ -1,7 +1,7 @@
 #pragma once
 
+#include "ros/connection/master_watch.h"
 #include "ros/input/frames.h"
-#include "ros/master_watch.h"
 #include "ros/motion/command_cycle.h"
 #include "ros/motion/guard_input.h"
 #include "ros/motion/hold_publisher.h"

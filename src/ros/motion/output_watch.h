@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "ros/connection/xml_rpc_call.h"
 #include "ros/threads/timer_thread.h"
-#include "ros/xml_rpc_call.h"
 
 namespace sweep_guard_ros {
 

@@ -8,10 +8,10 @@
 #include <string>
 
 #include "monitor/input_record.h"
-#include "ros/bounded.h"
+#include "ros/connection/bounded.h"
 #include "ros/input/frames.h"
-#include "ros/log_throttle.h"
 #include "ros/motion/guard_source.h"
+#include "ros/process/log_throttle.h"
 #include "ros/threads/queue_thread.h"
 #include "sweep_guard/motion/motion_guard.h"
 

@@ -8,10 +8,10 @@
 #include <optional>
 #include <string>
 
-#include "ros/bounded.h"
-#include "ros/log_throttle.h"
-#include "ros/master_watch.h"
+#include "ros/connection/bounded.h"
+#include "ros/connection/master_watch.h"
 #include "ros/motion/output_watch.h"
+#include "ros/process/log_throttle.h"
 #include "ros/threads/queue_thread.h"
 #include "ros/threads/timer_thread.h"
 #include "sweep_guard/common/priority_mutex.h"

@@ -45,9 +45,12 @@ void reportClocks(const sweep_guard_core::Timestamps& pose, diagnostic_updater::
 
 }  // namespace
 
-Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
-                         const DiagnosticsSources& sources)
-    : sources_(sources), updater_(node, private_node, private_node.getNamespace()) {
+Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, GuardState& state,
+                         const Inputs& inputs, const ReconfigureServer& reconfigure)
+    : state_(state),
+      inputs_(inputs),
+      reconfigure_(reconfigure),
+      updater_(node, private_node, private_node.getNamespace()) {
   updater_.setHardwareID("none");
   updater_.add("warning", [this](Status& status) { warning(status); });
   updater_.add("tool pose", [this](Status& status) { pose(status); });
@@ -55,7 +58,7 @@ Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& pri
   updater_.add("mesh vertices", [this](Status& status) { vertices(status); });
   updater_.add("workpieces", [this](Status& status) { workpieces(status); });
   updater_.add("allowed contact", [this](Status& status) { allowed(status); });
-  if (!sources.parameters.initial().other_tools.empty())
+  if (!state.parameters.initial().other_tools.empty())
     updater_.add("other tools", [this](Status& status) { otherTools(status); });
   updater_.add("detector", [this](Status& status) { detector(status); });
   updater_.add("prediction", [this](Status& status) { prediction(status); });
@@ -65,14 +68,14 @@ Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& pri
 }
 
 void Diagnostics::publish() {
-  statistics_ = sources_.statistics.take();
+  statistics_ = state_.statistics.take();
   updater_.force_update();
 }
 
 void Diagnostics::warning(Status& status) const {
   sweep_guard_core::Warning warning;
-  sources_.monitor.warning(now(), warning);
-  const auto disabled_by = sources_.monitor.disabledBy();
+  state_.monitor.warning(now(), warning);
+  const auto disabled_by = state_.monitor.disabledBy();
   const bool unknown = warning.level == sweep_guard_core::WarningLevel::kUnknown;
   status.summary(unknown ? DiagnosticStatus::WARN : DiagnosticStatus::OK, warning.text);
   status.add("level", sweep_guard_core::styleOf(warning.level).name);
@@ -83,30 +86,32 @@ void Diagnostics::warning(Status& status) const {
 }
 
 void Diagnostics::pose(Status& status) {
-  input(status,
-        {sources_.poses.source(), sources_.poses.publishers(), sources_.poses.record().summary(), /*continuous=*/true},
-        poses_);
-  if (sources_.poses.publishers().value_or(1) > 1) {
+  input(
+      status,
+      {inputs_.poses().source(), inputs_.poses().publishers(), inputs_.poses().record().summary(), /*continuous=*/true},
+      poses_);
+  if (inputs_.poses().publishers().value_or(1) > 1) {
     status.mergeSummary(DiagnosticStatus::WARN, "several publishers: the tool jumps between their poses");
   }
-  status.add("lost", sources_.poses.lost());
-  if (const auto newest = sources_.poses.record().summary().newest) reportClocks(*newest, status);
+  status.add("lost", inputs_.poses().lost());
+  if (const auto newest = inputs_.poses().record().summary().newest) reportClocks(*newest, status);
 }
 
 void Diagnostics::mesh(Status& status) {
-  const InputRecord::Summary record = sources_.meshes.meshRecord().summary();
+  const InputRecord::Summary record = inputs_.meshes().meshRecord().summary();
   input(status,
-        {sources_.meshes.meshTopic(), sources_.meshes.meshPublishers(), record, /*continuous=*/record.received == 0},
+        {inputs_.meshes().meshTopic(), inputs_.meshes().meshPublishers(), record,
+         /*continuous=*/record.received == 0},
         meshes_);
 }
 
 void Diagnostics::vertices(Status& status) {
   input(status,
-        {sources_.meshes.verticesTopic(), sources_.meshes.verticesPublishers(),
-         sources_.meshes.verticesRecord().summary(),
+        {inputs_.meshes().verticesTopic(), inputs_.meshes().verticesPublishers(),
+         inputs_.meshes().verticesRecord().summary(),
          /*continuous=*/false},
         vertices_);
-  status.add("dropped", sources_.meshes.droppedUpdates());
+  status.add("dropped", inputs_.meshes().droppedUpdates());
 }
 
 void Diagnostics::input(Status& status, const Input& input, Counts& previous) const {
@@ -143,9 +148,9 @@ void Diagnostics::input(Status& status, const Input& input, Counts& previous) co
 }
 
 void Diagnostics::workpieces(Status& status) const {
-  const sweep_guard_core::Workpieces workpieces = sources_.workpieces.snapshot();
+  const sweep_guard_core::Workpieces workpieces = state_.workpieces.snapshot();
   const sweep_guard_core::Instant at = now();
-  const auto parameters = sources_.parameters.get();
+  const auto parameters = state_.parameters.get();
   const sweep_guard_core::Duration timeout = parameters->limits.mesh_timeout;
   status.summary(DiagnosticStatus::OK, std::to_string(workpieces.size()) + " workpieces");
   if (workpieces.empty()) status.summary(DiagnosticStatus::STALE, "no workpiece yet");
@@ -173,7 +178,7 @@ void Diagnostics::workpieces(Status& status) const {
 }
 
 void Diagnostics::allowed(Status& status) const {
-  const auto matches = sources_.allowed.matches();
+  const auto matches = state_.allowed.matches();
   status.summary(DiagnosticStatus::OK,
                  matches.empty() ? "none (tool/allowed)" : std::to_string(matches.size()) + " pairs may touch");
   for (const auto& [pair, has_matched] : matches) {
@@ -184,9 +189,9 @@ void Diagnostics::allowed(Status& status) const {
 
 void Diagnostics::otherTools(Status& status) const {
   const sweep_guard_core::Instant at = now();
-  const sweep_guard_core::Duration timeout = sources_.parameters.get()->limits.pose_timeout;
+  const sweep_guard_core::Duration timeout = state_.parameters.get()->limits.pose_timeout;
   status.summary(DiagnosticStatus::OK, "heard");
-  for (const auto& [name, newest, problem] : sources_.monitor.otherTools()) {
+  for (const auto& [name, newest, problem] : state_.monitor.otherTools()) {
     const std::string age = newest ? "pose " + std::to_string(toSeconds(sweep_guard_core::age(*newest, at))) + " s old"
                                    : std::string("not heard of");
     const bool counts = newest && problem.empty() && !sweep_guard_core::stale(*newest, at, timeout);
@@ -196,8 +201,8 @@ void Diagnostics::otherTools(Status& status) const {
 }
 
 void Diagnostics::detector(Status& status) const {
-  reportDetector(statistics_, *sources_.parameters.get(), status);
-  if (sources_.monitor.disabledBy()) status.summary(DiagnosticStatus::WARN, "disabled: nothing is swept");
+  reportDetector(statistics_, *state_.parameters.get(), status);
+  if (state_.monitor.disabledBy()) status.summary(DiagnosticStatus::WARN, "disabled: nothing is swept");
 }
 
 void reportDetector(const SweepStatistics::Summary& statistics, const Parameters& parameters,
@@ -230,7 +235,7 @@ void reportDetector(const SweepStatistics::Summary& statistics, const Parameters
 }
 
 void Diagnostics::prediction(Status& status) const {
-  const auto parameters = sources_.parameters.get();
+  const auto parameters = state_.parameters.get();
   const std::string& predictor = parameters->guard.predictor.predictor;
   const sweep_guard_core::HorizonOptions& horizon = parameters->guard.horizon;
   const SweepStatistics::PredictionTiming& newest = statistics_.prediction;
@@ -243,7 +248,7 @@ void Diagnostics::prediction(Status& status) const {
     status.summary(DiagnosticStatus::STALE, "no prediction: two tool poses in a row are needed");
   }
   if (statistics_.prediction_times.empty()) status.summary(DiagnosticStatus::STALE, "no tool pose to predict from");
-  if (sources_.monitor.disabledBy()) status.summary(DiagnosticStatus::WARN, "disabled: nothing is predicted");
+  if (state_.monitor.disabledBy()) status.summary(DiagnosticStatus::WARN, "disabled: nothing is predicted");
   status.add("predictor", predictor);
   status.addf("horizon [s]", "reflex %g, considered %g", toSeconds(horizon.reflex), toSeconds(horizon.considered));
   status.add("predictions", statistics_.predictions_total);
@@ -257,7 +262,7 @@ void Diagnostics::prediction(Status& status) const {
 
 void Diagnostics::stages(Status& status) {
   const sweep_guard_core::SteadyTime now = std::chrono::steady_clock::now();
-  const sweep_guard_core::StageTimes times = sources_.supervisor.stageTimes();
+  const sweep_guard_core::StageTimes times = state_.supervisor.stageTimes();
   status.summary(DiagnosticStatus::OK, "share of the time");
   for (size_t i = 0; i < times.size(); ++i) {
     const double share = toSeconds(times[i] - stage_times_[i]) / toSeconds(now - stages_read_);
@@ -268,8 +273,8 @@ void Diagnostics::stages(Status& status) {
 }
 
 void Diagnostics::parameters(Status& status) const {
-  const std::vector<ParameterChange> changes = differences(sources_.parameters.initial(), *sources_.parameters.get());
-  const ReconfigureServer::History history = sources_.reconfigure.history();
+  const std::vector<ParameterChange> changes = differences(state_.parameters.initial(), *state_.parameters.get());
+  const ReconfigureServer::History history = reconfigure_.history();
   status.summary(DiagnosticStatus::OK, changes.empty() ? "unchanged since the start"
                                                        : std::to_string(changes.size()) + " changed since the start");
   for (const ParameterChange& change : changes) {

@@ -6,27 +6,12 @@
 #include <string>
 
 #include "monitor/sweep_statistics.h"
-#include "ros/input/mesh_input.h"
-#include "ros/input/pose_input.h"
-#include "ros/parameters/parameters.h"
+#include "ros/guard/guard_state.h"
+#include "ros/input/inputs.h"
 #include "ros/parameters/reconfigure_server.h"
-#include "ros/threads/supervisor.h"
 #include "sweep_guard/common/time.h"
-#include "sweep_guard/guard/allowed_contact.h"
 
 namespace sweep_guard_ros {
-
-struct DiagnosticsSources {
-  const LiveParameters& parameters;
-  const PoseInput& poses;
-  const MeshInput& meshes;
-  const sweep_guard_core::WorkpieceStore& workpieces;
-  const sweep_guard_core::AllowedMatches& allowed;
-  const sweep_guard_core::WarningMonitor& monitor;
-  sweep_guard_core::SweepStatistics& statistics;
-  const ReconfigureServer& reconfigure;
-  const Supervisor& supervisor;
-};
 
 /// Reports whether the detector works, and keeps up with the poses.
 void reportDetector(const sweep_guard_core::SweepStatistics::Summary& statistics, const Parameters& parameters,
@@ -37,7 +22,8 @@ void reportDetector(const sweep_guard_core::SweepStatistics::Summary& statistics
 /// process.
 class Diagnostics {
  public:
-  Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const DiagnosticsSources& sources);
+  Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, GuardState& state, const Inputs& inputs,
+              const ReconfigureServer& reconfigure);
 
   /// Publishes now. To be called once a second.
   void publish();
@@ -71,7 +57,9 @@ class Diagnostics {
   void parameters(Status& status) const;
   void process(Status& status) const;
 
-  const DiagnosticsSources sources_;
+  GuardState& state_;
+  const Inputs& inputs_;
+  const ReconfigureServer& reconfigure_;
   Counts poses_;  // at the end of the last period
   Counts meshes_;
   Counts vertices_;

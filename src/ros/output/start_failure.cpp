@@ -4,8 +4,8 @@
 #include <ros/console.h>
 #include <ros/master.h>
 
+#include "ros/connection/xml_rpc_call.h"
 #include "ros/output/flush.h"
-#include "ros/xml_rpc_call.h"
 
 namespace sweep_guard_ros {
 namespace {

@@ -5,53 +5,33 @@
 namespace sweep_guard_ros {
 namespace {
 
-constexpr auto kPause = std::chrono::milliseconds(500);  // before the next attempt
+constexpr auto kRetryPeriod = std::chrono::milliseconds(500);
+constexpr auto kMaxWrite = std::chrono::milliseconds(500);
 
 }  // namespace
 
-ParameterWriter::ParameterWriter(const ros::NodeHandle& private_node)
-    : node_(private_node), call_(kCallTimeout, stopping_) {}
-
-ParameterWriter::~ParameterWriter() {
-  {
+ParameterWriter::ParameterWriter(const ros::NodeHandle& private_node, MasterThread& thread)
+    : node_(private_node), call_(thread.call()) {
+  thread.every(kRetryPeriod, [this] {
     const std::lock_guard lock(mutex_);
-    stopping_ = true;
-  }
-  changed_.notify_all();
-  if (thread_.joinable()) thread_.join();
+    writeWaiting();
+  });
 }
 
-void ParameterWriter::start(Supervisor& supervisor) {
-  top_ = &supervisor.add({"param_writer", sweep_guard_core::Stage::kOther, /*watched=*/false});
-  thread_ = std::thread([this] { run(); });
-}
-
-bool ParameterWriter::write(const std::map<std::string, ParameterValue>& values, sweep_guard_core::Duration timeout) {
-  std::unique_lock lock(mutex_);
+bool ParameterWriter::write(const std::map<std::string, ParameterValue>& values) {
+  const std::lock_guard lock(mutex_);
   for (const auto& [key, value] : values) waiting_.insert_or_assign(key, value);
-  changed_.notify_all();
-  return changed_.wait_for(lock, timeout, [this] { return waiting_.empty(); });
+  return writeWaiting();
 }
 
-void ParameterWriter::run() {
-  top_->enter();
-  std::unique_lock lock(mutex_);
-  while (!stopping_) {
-    changed_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
-    if (!stopping_) writeNext(lock);
+bool ParameterWriter::writeWaiting() {
+  const auto end = std::chrono::steady_clock::now() + kMaxWrite;
+  while (!waiting_.empty() && std::chrono::steady_clock::now() < end) {
+    const auto next = waiting_.begin();
+    if (!writeOne(next->first, next->second)) return false;
+    waiting_.erase(next);
   }
-}
-
-void ParameterWriter::writeNext(std::unique_lock<std::mutex>& lock) {
-  const auto [key, value] = *waiting_.begin();
-  bool written = false;
-  lock.unlock();
-  top_->run([&, &key = key, &value = value] { written = writeOne(key, value); });
-  lock.lock();
-  const auto now = waiting_.find(key);
-  if (written && now->second == value) waiting_.erase(now);
-  changed_.notify_all();
-  if (!written) changed_.wait_for(lock, kPause, [this] { return stopping_.load(); });
+  return waiting_.empty();
 }
 
 // Not by ros::param::set(): it locks all cached parameters until the master answers.

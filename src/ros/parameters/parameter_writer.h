@@ -2,49 +2,36 @@
 
 #include <ros/node_handle.h>
 
-#include <atomic>
-#include <condition_variable>
 #include <map>
 #include <mutex>
 #include <string>
-#include <thread>
 
-#include "ros/threads/supervisor.h"
-#include "ros/xml_rpc_call.h"
-#include "sweep_guard/common/time.h"
+#include "ros/threads/master_thread.h"
 #include "sweep_guard/ros/parameters/parameter_reader.h"
 
 namespace sweep_guard_ros {
 
-/// Writes private parameters to the parameter server, in a thread of its own: roscpp waits for a master that does not
-/// answer. Any thread.
+/// Writes private parameters to the parameter server, and gives up after a while: roscpp waits for a master that does not
+/// answer. What is not written is written later, by the thread that calls the master. Any thread.
 class ParameterWriter {
  public:
-  explicit ParameterWriter(const ros::NodeHandle& private_node);
-  ~ParameterWriter();  ///< drops what is not written yet
+  /// @param thread  writes later; must be stopped first
+  ParameterWriter(const ros::NodeHandle& private_node, MasterThread& thread);
   ParameterWriter(const ParameterWriter&) = delete;
   ParameterWriter& operator=(const ParameterWriter&) = delete;
 
-  /// Starts the thread; the supervisor must outlive it.
-  void start(Supervisor& supervisor);
-
   /// Writes the values, newer ones in place of older ones that are not written yet.
-  /// @returns false if the server has not taken all within the time: they are written once it answers
-  bool write(const std::map<std::string, ParameterValue>& values, sweep_guard_core::Duration timeout);
+  /// @returns false if the server has not taken all within about half a second: they are written once it answers
+  bool write(const std::map<std::string, ParameterValue>& values);
 
  private:
-  void run();
-  void writeNext(std::unique_lock<std::mutex>& lock);
+  bool writeWaiting();
   bool writeOne(const std::string& key, const ParameterValue& value) const;
 
   const ros::NodeHandle node_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
+  const XmlRpcCall& call_;
+  std::mutex mutex_;  // held while one writes: an older value must not follow a newer one
   std::map<std::string, ParameterValue> waiting_;
-  std::atomic<bool> stopping_ = false;
-  const XmlRpcCall call_;
-  ThreadTop* top_ = nullptr;  // from start() on
-  std::thread thread_;
 };
 
 }  // namespace sweep_guard_ros

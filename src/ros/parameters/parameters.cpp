@@ -1,3 +1,4 @@
+// The table of the guard's parameters, in the order of doc/interface.md and config/sweep_guard.yaml.
 #include "ros/parameters/parameters.h"
 
 #include <ros/console.h>

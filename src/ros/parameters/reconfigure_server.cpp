@@ -16,8 +16,6 @@ namespace {
 using dynamic_reconfigure::Config;
 using dynamic_reconfigure::ConfigDescription;
 
-constexpr auto kMaxWrite = std::chrono::milliseconds(500);
-
 const std::string kRoot = "Default";  // name that clients expect
 
 std::string typeOf(const ParameterValue& value) {
@@ -136,13 +134,15 @@ std::map<std::string, ParameterValue> requested(const Config& request) {
 
 }  // namespace
 
-ReconfigureServer::ReconfigureServer(const ros::NodeHandle& private_node, const LiveParameters& parameters, Apply apply)
+ReconfigureServer::ReconfigureServer(const ros::NodeHandle& private_node, ServiceThreads& threads, MasterThread& master,
+                                     const LiveParameters& parameters, Apply apply)
     : private_node_(private_node),
       parameters_(parameters),
       apply_(std::move(apply)),
-      writer_(private_node),
+      writer_(private_node, master),
       descriptions_(private_node_.advertise<ConfigDescription>("parameter_descriptions", 1, /*latch=*/true)),
       values_(private_node_.advertise<Config>("parameter_updates", 1, /*latch=*/true)),
+      calls_(threads.brief, threads.refusals),
       server_(calls_.advertise<Event>(
           private_node, "set_parameters", parameters.initial().max_message_size,
           [this](Event& event) { return onSet(event); },
@@ -191,7 +191,7 @@ void ReconfigureServer::change(const Config& request, const std::string& caller)
     const std::lock_guard lock(mutex_);
     history_.last_change = text + " (by " + caller + ")";
   }
-  if (writer_.write(values, kMaxWrite)) return;
+  if (writer_.write(values)) return;
   throw sweep_guard_core::Error("applied: " + text +
                                 ". The parameter server does not answer, and has the old values until it does");
 }

@@ -13,6 +13,7 @@
 #include "ros/parameters/parameter_writer.h"
 #include "ros/parameters/parameters.h"
 #include "ros/service/limited_calls.h"
+#include "ros/service/service_threads.h"
 
 namespace sweep_guard_ros {
 
@@ -30,12 +31,8 @@ class ReconfigureServer {
     std::string last_refusal;  ///< reason and caller; empty: none yet
   };
 
-  ReconfigureServer(const ros::NodeHandle& private_node, const LiveParameters& parameters, Apply apply);
-
-  void start(Supervisor& supervisor) {
-    writer_.start(supervisor);
-    calls_.start(supervisor);
-  }
+  ReconfigureServer(const ros::NodeHandle& private_node, ServiceThreads& threads, MasterThread& master,
+                    const LiveParameters& parameters, Apply apply);
 
   History history() const;
 
@@ -55,7 +52,7 @@ class ReconfigureServer {
   ParameterWriter writer_;
   ros::Publisher descriptions_;
   ros::Publisher values_;
-  LimitedCalls calls_{"parameters"};  // after what a call uses: it ends only here. Before the server, which uses it
+  LimitedCalls calls_;  // before the server, which uses it
   ros::ServiceServer server_;
 };
 

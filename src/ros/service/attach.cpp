@@ -50,10 +50,11 @@ Workpiece movedBy(const Eigen::Isometry3d& X_MM, const Workpiece& held, const Po
 
 }  // namespace
 
-AttachService::AttachService(const ros::NodeHandle& private_node, const AttachDependencies& dependencies,
-                             ToolControls tool)
+AttachService::AttachService(const ros::NodeHandle& private_node, ServiceThreads& threads,
+                             const AttachDependencies& dependencies, ToolControls tool)
     : dependencies_(dependencies),
       tool_(std::move(tool)),
+      calls_(threads.lasting, threads.refusals),
       server_(calls_.advertise<Event>(
           private_node, "attach", kMaxRequest, [this](Event& event) { return onCall(event); },
           [](const std::string& reason, sweep_guard::Attach::Response& response) {

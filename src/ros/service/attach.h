@@ -12,6 +12,7 @@
 #include "ros/input/frames.h"
 #include "ros/parameters/parameters.h"
 #include "ros/service/limited_calls.h"
+#include "ros/service/service_threads.h"
 #include "sweep_guard/guard/pose_with_frames.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
@@ -34,13 +35,11 @@ struct AttachDependencies {
   sweep_guard_core::WarningMonitor& monitor;
 };
 
-/// Serves `~attach`: a workpiece that the tool holds becomes part of the tool, and is given back. Cuts it into convex pieces
-/// in a thread of its own. A call that finds 4 others waiting is answered BUSY.
+/// Serves `~attach`: a workpiece that the tool holds becomes part of the tool, and is given back. A call that finds 4 others waiting is answered BUSY.
 class AttachService {
  public:
-  AttachService(const ros::NodeHandle& private_node, const AttachDependencies& dependencies, ToolControls tool);
-
-  void start(Supervisor& supervisor) { calls_.start(supervisor); }
+  AttachService(const ros::NodeHandle& private_node, ServiceThreads& threads, const AttachDependencies& dependencies,
+                ToolControls tool);
 
  private:
   using Event = ros::ServiceEvent<sweep_guard::Attach::Request, sweep_guard::Attach::Response>;
@@ -55,7 +54,7 @@ class AttachService {
 
   const AttachDependencies dependencies_;
   const ToolControls tool_;
-  LimitedCalls calls_{"attach"};  // before the server, which uses it
+  LimitedCalls calls_;  // before the server, which uses it
   ros::ServiceServer server_;
 };
 

@@ -58,8 +58,9 @@ void fill(CheckSweep::Response& response, const PathQuestion& question, const st
 
 }  // namespace
 
-CheckSweepService::CheckSweepService(const ros::NodeHandle& private_node, PathTests& tests)
+CheckSweepService::CheckSweepService(const ros::NodeHandle& private_node, ServiceThreads& threads, PathTests& tests)
     : tests_(tests),
+      calls_(threads.lasting, threads.refusals),
       server_(calls_.advertise<ros::ServiceSpec<CheckSweep::Request, CheckSweep::Response>>(
           private_node, "check_sweep", tests.parameters().initial().max_message_size,
           [this](auto& request, auto& response) { return answerPath(response, [&] { check(request, response); }); },
@@ -67,7 +68,8 @@ CheckSweepService::CheckSweepService(const ros::NodeHandle& private_node, PathTe
 
 void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Response& response) {
   checkPathOf(request);
-  const auto question = tests_.question({request.volume, request.detector, request.margin, request.fine != 0});
+  const auto question =
+      tests_.question({request.volume, request.detector, request.margin, request.fine != 0}, calls_.arrival());
   // Before the snapshot is taken: what is accepted later does not better it.
   const std::string doubts_before = tests_.meshProblems(request.mesh_ids);
   for (const auto& workpiece : tests_.selected(*question, request.mesh_ids)) {

@@ -8,6 +8,7 @@
 
 #include "ros/service/limited_calls.h"
 #include "ros/service/path_tests.h"
+#include "ros/service/service_threads.h"
 
 namespace sweep_guard_ros {
 
@@ -16,13 +17,7 @@ namespace sweep_guard_ros {
 class CheckSweepService {
  public:
   /// @param tests  must outlive it
-  CheckSweepService(const ros::NodeHandle& private_node, PathTests& tests);
-
-  ~CheckSweepService() { tests_.stop(); }
-  CheckSweepService(const CheckSweepService&) = delete;
-  CheckSweepService& operator=(const CheckSweepService&) = delete;
-
-  void start(Supervisor& supervisor) { calls_.start(supervisor); }
+  CheckSweepService(const ros::NodeHandle& private_node, ServiceThreads& threads, PathTests& tests);
 
  private:
   void check(const sweep_guard::CheckSweep::Request& request, sweep_guard::CheckSweep::Response& response);
@@ -30,7 +25,7 @@ class CheckSweepService {
                                         const std::vector<geometry_msgs::PoseStamped>& path, const GoOn& go_on) const;
 
   PathTests& tests_;
-  LimitedCalls calls_{"check_sweep"};  // before the server, which uses it
+  LimitedCalls calls_;  // before the server, which uses it
   ros::ServiceServer server_;
 };
 

@@ -135,15 +135,18 @@ void fill(CheckTrajectory::Response& response, const PathQuestion& question, con
 
 }  // namespace
 
-CheckTrajectoryService::CheckTrajectoryService(const ros::NodeHandle& private_node, PathTests& tests)
+CheckTrajectoryService::CheckTrajectoryService(const ros::NodeHandle& private_node, ServiceThreads& threads,
+                                               PathTests& tests)
     : tests_(tests),
+      calls_(threads.lasting, threads.refusals),
       server_(calls_.advertise<ros::ServiceSpec<CheckTrajectory::Request, CheckTrajectory::Response>>(
           private_node, "check_trajectory", tests.parameters().initial().max_message_size,
           [this](auto& request, auto& response) { return answerPath(response, [&] { check(request, response); }); },
           refusePath<CheckTrajectory::Response>)) {}
 
 void CheckTrajectoryService::check(const CheckTrajectory::Request& request, CheckTrajectory::Response& response) {
-  const auto question = tests_.question({request.volume, request.detector, request.margin, request.fine != 0});
+  const auto question =
+      tests_.question({request.volume, request.detector, request.margin, request.fine != 0}, calls_.arrival());
   const RobotModel& model = robotOf(*question->parameters);
   const std::vector<RobotState> states = statesOf(request.trajectory, model);
   // Before the snapshot is taken: what is accepted later does not better it.

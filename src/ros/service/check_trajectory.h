@@ -7,6 +7,7 @@
 
 #include "ros/service/limited_calls.h"
 #include "ros/service/path_tests.h"
+#include "ros/service/service_threads.h"
 #include "sweep_guard/kinematics/robot_path.h"
 
 namespace sweep_guard_ros {
@@ -16,20 +17,14 @@ namespace sweep_guard_ros {
 class CheckTrajectoryService {
  public:
   /// @param tests  must outlive it
-  CheckTrajectoryService(const ros::NodeHandle& private_node, PathTests& tests);
-
-  ~CheckTrajectoryService() { tests_.stop(); }
-  CheckTrajectoryService(const CheckTrajectoryService&) = delete;
-  CheckTrajectoryService& operator=(const CheckTrajectoryService&) = delete;
-
-  void start(Supervisor& supervisor) { calls_.start(supervisor); }
+  CheckTrajectoryService(const ros::NodeHandle& private_node, ServiceThreads& threads, PathTests& tests);
 
  private:
   void check(const sweep_guard::CheckTrajectory::Request& request, sweep_guard::CheckTrajectory::Response& response);
   Eigen::Isometry3d toolPoseIn(const std::string& mesh_frame, const geometry_msgs::PoseStamped& pose) const;
 
   PathTests& tests_;
-  LimitedCalls calls_{"check_trajectory"};  // before the server, which uses it
+  LimitedCalls calls_;  // before the server, which uses it
   ros::ServiceServer server_;
 };
 

@@ -8,11 +8,12 @@
 namespace sweep_guard_ros {
 Controls::Controls(const ros::NodeHandle& private_node, const LiveParameters& parameters,
                    sweep_guard_core::WarningMonitor& monitor, const sweep_guard_core::WorkpieceStore& workpieces,
-                   GuardControls guard)
+                   ServiceThreads& threads, GuardControls guard)
     : parameters_(parameters),
       monitor_(monitor),
       workpieces_(workpieces),
       guard_(std::move(guard)),
+      calls_(threads.brief, threads.refusals),
       enable_server_(advertise(private_node, "enable", &Controls::onEnable)),
       reset_server_(advertise(private_node, "reset", &Controls::onReset)),
       acknowledge_server_(advertise(private_node, "acknowledge", &Controls::onAcknowledge)),

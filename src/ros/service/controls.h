@@ -10,6 +10,7 @@
 #include "guard/workpiece_store.h"
 #include "ros/parameters/parameters.h"
 #include "ros/service/limited_calls.h"
+#include "ros/service/service_threads.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {
@@ -29,9 +30,7 @@ class Controls {
  public:
   Controls(const ros::NodeHandle& private_node, const LiveParameters& parameters,
            sweep_guard_core::WarningMonitor& monitor, const sweep_guard_core::WorkpieceStore& workpieces,
-           GuardControls guard);
-
-  void start(Supervisor& supervisor) { calls_.start(supervisor); }
+           ServiceThreads& threads, GuardControls guard);
 
  private:
   using AcknowledgeEvent = ros::ServiceEvent<sweep_guard::Acknowledge::Request, sweep_guard::Acknowledge::Response>;
@@ -52,7 +51,7 @@ class Controls {
   sweep_guard_core::WarningMonitor& monitor_;
   const sweep_guard_core::WorkpieceStore& workpieces_;
   const GuardControls guard_;
-  LimitedCalls calls_{"controls"};  // before the servers, which use it
+  LimitedCalls calls_;  // before the servers, which use it
   ros::ServiceServer enable_server_;
   ros::ServiceServer reset_server_;
   ros::ServiceServer acknowledge_server_;

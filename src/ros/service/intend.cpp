@@ -53,11 +53,13 @@ std::string summaryOf(const sweep_guard_core::Intentions& intentions) {
 
 }  // namespace
 
-IntendService::IntendService(const ros::NodeHandle& private_node, const IntendDependencies& dependencies)
+IntendService::IntendService(const ros::NodeHandle& private_node, ServiceThreads& threads,
+                             const IntendDependencies& dependencies)
     : dependencies_(dependencies),
       publisher_(ros::NodeHandle(private_node).advertise<sweep_guard::Intended>("intended", 1, /*latch=*/true)),
+      calls_(threads.brief, threads.refusals),
       updates_(subscribeBounded<sweep_guard::Intend>(
-          thread_.on(private_node),
+          threads.brief.on(private_node),
           {"intend_updates", kQueueLength, dependencies.parameters.initial().max_message_size},
           [this](const ros::MessageEvent<const sweep_guard::Intend>& event) { onUpdate(*event.getConstMessage()); },
           [this](const std::string& reason) { refuseUpdate(reason); })),
@@ -69,11 +71,6 @@ IntendService::IntendService(const ros::NodeHandle& private_node, const IntendDe
             return true;
           })) {
   publish({}, /*only_if_changed=*/false);
-}
-
-void IntendService::start(Supervisor& supervisor) {
-  thread_.start(supervisor, {"intentions", sweep_guard_core::Stage::kOther, /*watched=*/false});
-  calls_.start(supervisor);
 }
 
 // Answers errors by a message: a failed ROS call gives the caller none.

@@ -12,12 +12,12 @@
 
 #include "guard/intention_store.h"
 #include "guard/workpiece_store.h"
-#include "ros/bounded.h"
+#include "ros/connection/bounded.h"
 #include "ros/input/frames.h"
-#include "ros/log_throttle.h"
 #include "ros/parameters/parameters.h"
+#include "ros/process/log_throttle.h"
 #include "ros/service/limited_calls.h"
-#include "ros/threads/queue_thread.h"
+#include "ros/service/service_threads.h"
 
 namespace sweep_guard_ros {
 
@@ -32,9 +32,7 @@ struct IntendDependencies {
 /// that finds 4 others waiting is answered BUSY.
 class IntendService {
  public:
-  IntendService(const ros::NodeHandle& private_node, const IntendDependencies& dependencies);
-
-  void start(Supervisor& supervisor);
+  IntendService(const ros::NodeHandle& private_node, ServiceThreads& threads, const IntendDependencies& dependencies);
 
   void publishIfChanged();  ///< publishes `~intended` if it has changed, by itself too. Any thread
 
@@ -56,8 +54,7 @@ class IntendService {
   std::string refusal_;  // of the newest update
   LogThrottle log_;
   ros::Publisher publisher_;
-  QueueThread thread_;            // before the subscriber, which uses it
-  LimitedCalls calls_{"intend"};  // before the server, which uses it
+  LimitedCalls calls_;  // before the server, which uses it
   BoundedSubscriber updates_;
   ros::ServiceServer server_;
 };

@@ -8,8 +8,9 @@
 #include <string>
 #include <utility>
 
-#include "ros/bounded.h"
+#include "ros/connection/bounded.h"
 #include "ros/threads/queue_thread.h"
+#include "sweep_guard/common/time.h"
 
 namespace sweep_guard_ros {
 
@@ -17,14 +18,18 @@ constexpr size_t kMaxRequest = 1024;  ///< [bytes]; of a request that holds litt
 constexpr auto kTransformWait = std::chrono::milliseconds(100);  ///< of a call for a transform
 constexpr auto kGuardTimeout = std::chrono::seconds(1);          ///< of a call for a guard that is stuck in a sweep
 
-/// Runs the calls of services in a thread of their own. At most 4 calls wait there while one runs. Any more are answered
-/// BUSY at once, in a second thread. The servers must be destroyed first.
+/// Hands the calls of one or more services to a thread that runs them and others. At most 4 of these calls wait while one
+/// runs. Any more are answered BUSY at once, in a second thread. Both threads must be stopped first, and then the servers
+/// be destroyed.
 class LimitedCalls : public ros::CallbackQueueInterface {
  public:
   static constexpr int kMaxWaiting = 4;
 
-  /// @param name  of the thread: at most 15 bytes; lives as long as the process
-  explicit LimitedCalls(const char* name);
+  /// @param worker    runs the calls
+  /// @param refusals  answers those that find no room; both must outlive this
+  LimitedCalls(QueueThread& worker, QueueThread& refusals) : worker_(worker), refusals_(refusals) {}
+  LimitedCalls(const LimitedCalls&) = delete;
+  LimitedCalls& operator=(const LimitedCalls&) = delete;
 
   /// Advertises a service. Its requests are checked before memory is reserved for them.
   /// @param max_size  of a request [bytes]
@@ -34,24 +39,28 @@ class LimitedCalls : public ros::CallbackQueueInterface {
                                typename BoundedCalls<Spec>::Base::Callback callback,
                                typename BoundedCalls<Spec>::Refused refused) {
     node.setCallbackQueue(this);
-    return advertiseBounded<Spec>(node, name, max_size, std::move(callback), std::move(refused), throwIfBusy);
+    return advertiseBounded<Spec>(node, name, max_size, std::move(callback), std::move(refused),
+                                  [this] { throwIfBusy(); });
   }
-  /// Starts both threads; the supervisor must outlive them.
-  void start(Supervisor& supervisor);
 
   /// Throws sweep_guard_core::Error in a call that found no room.
-  static void throwIfBusy();
+  void throwIfBusy() const;
   /// Returns when the running call came: it may have waited since. Only in a call that found room.
-  static std::chrono::steady_clock::time_point arrival();
+  sweep_guard_core::SteadyTime arrival() const { return state_->arrival; }
 
   void addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t owner) override;
   void removeByID(std::uint64_t owner) override;
 
  private:
-  const char* const name_;
-  const std::shared_ptr<std::atomic<int>> inside_ = std::make_shared<std::atomic<int>>(0);  // one runs, others wait
-  QueueThread worker_;
-  QueueThread refusals_;
+  struct State {
+    std::atomic<int> inside = 0;           // one runs, others wait
+    sweep_guard_core::SteadyTime arrival;  // of the call that runs; used by the worker only
+  };
+  class CountedCall;
+
+  QueueThread& worker_;
+  QueueThread& refusals_;
+  const std::shared_ptr<State> state_ = std::make_shared<State>();
 };
 
 }  // namespace sweep_guard_ros

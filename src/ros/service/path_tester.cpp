@@ -1,6 +1,6 @@
 #include "ros/service/path_tester.h"
 
-#include "ros/detector_test.h"
+#include "ros/guard/detector_test.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_ros {

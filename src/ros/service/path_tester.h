@@ -33,6 +33,7 @@ struct PathQuestion {
   std::string detector;  ///< its name
   sweep_guard_core::SweepOptions options;
   std::vector<Path> paths;
+  sweep_guard_core::SteadyTime arrival;  ///< of the call
   GoOn go_on;
 };
 

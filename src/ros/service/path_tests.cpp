@@ -51,12 +51,14 @@ void PathTests::start(Supervisor& supervisor) {
   sweeps_.start(supervisor, {"paths", sweep_guard_core::Stage::kOther, /*watched=*/false});
 }
 
-std::shared_ptr<PathQuestion> PathTests::question(const PathRequestOptions& options) const {
+std::shared_ptr<PathQuestion> PathTests::question(const PathRequestOptions& options,
+                                                  sweep_guard_core::SteadyTime arrival) const {
   auto question = std::make_shared<PathQuestion>();
   question->parameters = dependencies_.parameters.get();
   question->detector = options.detector.empty() ? question->parameters->detector.name : options.detector;
   question->options = sweepOptions(options, question->parameters->guard.sweep);
-  question->go_on = untilDeadline(question->parameters->check_sweep_deadline);
+  question->arrival = arrival;
+  question->go_on = untilDeadline(question->parameters->check_sweep_deadline, arrival);
   return question;
 }
 
@@ -64,8 +66,7 @@ std::shared_ptr<PathQuestion> PathTests::question(const PathRequestOptions& opti
 std::vector<PathResult> PathTests::test(const std::shared_ptr<const PathQuestion>& question) {
   auto results = sweeps_.submit<std::vector<PathResult>>([this, question] { return tester_.test(*question); });
   const sweep_guard_core::Duration deadline = question->parameters->check_sweep_deadline;
-  if (results.wait_until(LimitedCalls::arrival() + deadline + kGrace) == std::future_status::ready)
-    return results.get();
+  if (results.wait_until(question->arrival + deadline + kGrace) == std::future_status::ready) return results.get();
   throw givenUp(deadline, "during a sweep");
 }
 
@@ -73,8 +74,8 @@ std::string PathTests::meshProblems(const std::vector<std::string>& ids) const {
   return dependencies_.monitor.meshProblems(now(), ids);
 }
 
-GoOn PathTests::untilDeadline(sweep_guard_core::Duration deadline) const {
-  return [this, deadline, end = LimitedCalls::arrival() + deadline](const std::string& where) {
+GoOn PathTests::untilDeadline(sweep_guard_core::Duration deadline, sweep_guard_core::SteadyTime arrival) const {
+  return [this, deadline, end = arrival + deadline](const std::string& where) {
     if (stopping_) throw sweep_guard_core::Error("the guard is shutting down");
     if (std::chrono::steady_clock::now() < end) return;
     throw givenUp(deadline, "before " + where);

@@ -12,7 +12,7 @@
 #include "guard/workpiece_store.h"
 #include "ros/input/frames.h"
 #include "ros/parameters/parameters.h"
-#include "ros/process.h"
+#include "ros/process/process.h"
 #include "ros/service/path_tester.h"
 #include "ros/threads/background_thread.h"
 #include "sweep_guard/guard/frame_motion.h"
@@ -51,9 +51,10 @@ class PathTests {
   void stop() { stopping_ = true; }  ///< gives up running and later tests soon. Any thread
   const LiveParameters& parameters() const { return dependencies_.parameters; }
 
-  /// Begins a question; only in a call that LimitedCalls runs.
+  /// Begins a question.
+  /// @param arrival  of the call
   /// @throws sweep_guard_core::InvalidInput if an option is out of range
-  std::shared_ptr<PathQuestion> question(const PathRequestOptions& options) const;
+  std::shared_ptr<PathQuestion> question(const PathRequestOptions& options, sweep_guard_core::SteadyTime arrival) const;
 
   /// Returns the workpieces with these ids; all, if there are none.
   /// @throws sweep_guard_core::InvalidInput if one does not exist, or there is no workpiece at all
@@ -78,7 +79,7 @@ class PathTests {
  private:
   bool isOfOtherTool(const std::string& frame) const;
   std::string oldTransforms(const PathQuestion& question, const std::set<std::string>& frames) const;
-  GoOn untilDeadline(sweep_guard_core::Duration deadline) const;
+  GoOn untilDeadline(sweep_guard_core::Duration deadline, sweep_guard_core::SteadyTime arrival) const;
 
   const PathTestDependencies dependencies_;
   PathTester tester_;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "ros/detector_test.h"
+#include "ros/guard/detector_test.h"
 #include "ros/service/left_out.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
@@ -58,11 +58,12 @@ sweep_guard::Prediction predictionMsg(const sweep_guard_core::Prediction& predic
   return msg;
 }
 
-PredictService::PredictService(const ros::NodeHandle& private_node, const LiveParameters& live,
+PredictService::PredictService(const ros::NodeHandle& private_node, ServiceThreads& threads, const LiveParameters& live,
                                const sweep_guard_core::WorkpieceStore& workpieces, PredictMotion predict_motion)
     : live_(live),
       workpieces_(workpieces),
       predict_motion_(std::move(predict_motion)),
+      calls_(threads.lasting, threads.refusals),
       server_(calls_.advertise<ros::ServiceSpec<Predict::Request, Predict::Response>>(
           private_node, "predict", kMaxRequest,
           [this](auto& request, auto& response) { return onCall(request, response); }, refuse)) {}

@@ -12,6 +12,7 @@
 #include "guard/workpiece_store.h"
 #include "ros/parameters/parameters.h"
 #include "ros/service/limited_calls.h"
+#include "ros/service/service_threads.h"
 
 namespace sweep_guard_ros {
 
@@ -21,8 +22,8 @@ sweep_guard::Prediction predictionMsg(const sweep_guard_core::Prediction& predic
                                       const Parameters& parameters);
 
 /// Serves `~predict`: predicts the motion and its contacts for any horizon. The guard's thread predicts only the poses,
-/// in microseconds between two sweeps. The path is tested here, with a thread and a detector of its own and on a
-/// snapshot of the meshes, so the service never delays the guard. A call that finds 4 others waiting is answered BUSY.
+/// in microseconds between two sweeps. The path is tested here, with a detector of its own and on a snapshot of the meshes,
+/// so the service never delays the guard. A call that finds 4 others waiting is answered BUSY.
 class PredictService {
  public:
   struct Motion {
@@ -33,14 +34,10 @@ class PredictService {
   /// unknown.
   using PredictMotion = std::function<std::future<Motion>(sweep_guard_core::Duration horizon)>;
 
-  PredictService(const ros::NodeHandle& private_node, const LiveParameters& live,
+  PredictService(const ros::NodeHandle& private_node, ServiceThreads& threads, const LiveParameters& live,
                  const sweep_guard_core::WorkpieceStore& workpieces, PredictMotion predict_motion);
 
-  ~PredictService() { stopping_ = true; }
-  PredictService(const PredictService&) = delete;
-  PredictService& operator=(const PredictService&) = delete;
-
-  void start(Supervisor& supervisor) { calls_.start(supervisor); }
+  void stop() { stopping_ = true; }  ///< gives up a running test soon. Any thread
 
  private:
   bool onCall(sweep_guard::Predict::Request& request, sweep_guard::Predict::Response& response);
@@ -53,7 +50,7 @@ class PredictService {
   const PredictMotion predict_motion_;
   std::unique_ptr<sweep_guard_core::Detector> detector_;  // for parameters_
   std::atomic<bool> stopping_ = false;
-  LimitedCalls calls_{"predict"};  // before the server, which uses it
+  LimitedCalls calls_;  // before the server, which uses it
   ros::ServiceServer server_;
 };
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "ros/connection/sole_publisher.h"
 #include "ros/merger/heard_warning.h"
-#include "ros/sole_publisher.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "monitor/warning_merger.h"
-#include "ros/bounded.h"
-#include "ros/log_throttle.h"
-#include "ros/master_watch.h"
+#include "ros/connection/bounded.h"
+#include "ros/connection/master_watch.h"
+#include "ros/process/log_throttle.h"
 #include "ros/sound/sound_player.h"
 #include "ros/threads/queue_thread.h"
 #include "ros/threads/timer_thread.h"

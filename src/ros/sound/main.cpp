@@ -1,5 +1,5 @@
 #include "ros/parameters/parameters.h"
-#include "ros/run_node.h"
+#include "ros/process/run_node.h"
 #include "ros/sound/earcon_node.h"
 
 int main(int argc, char** argv) {

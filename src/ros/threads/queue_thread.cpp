@@ -45,7 +45,7 @@ void QueueThread::Queue::addCallback(const ros::CallbackInterfacePtr& callback, 
   CallbackQueue::addCallback(boost::make_shared<Work>(thread_, callback), owner);
 }
 
-QueueThread::~QueueThread() {
+void QueueThread::stop() {
   stopping_ = true;
   queue_.disable();
   if (thread_.joinable()) thread_.join();
@@ -66,6 +66,7 @@ void QueueThread::start(Supervisor& supervisor, const ThreadTraits& traits) {
 }
 
 void QueueThread::run() {
+  id_ = std::this_thread::get_id();
   top_->enter();
   while (!stopping_ && !ros::isShuttingDown()) top_->attempt([this] { queue_.callOne(kWait); });
 }

@@ -12,11 +12,12 @@
 namespace sweep_guard_ros {
 
 /// Runs the callbacks of one queue in one thread, so that no input waits for another. Callbacks wait until start().
-/// Subscribers and services made from it must be destroyed first.
+/// Subscribers and services made from it must be destroyed first; what their callbacks use, after stop() or later: roscpp
+/// does not wait for a callback that runs.
 class QueueThread {
  public:
   QueueThread() = default;
-  ~QueueThread();
+  ~QueueThread() { stop(); }
   QueueThread(const QueueThread&) = delete;
   QueueThread& operator=(const QueueThread&) = delete;
 
@@ -28,6 +29,9 @@ class QueueThread {
   void post(std::function<void()> work);
   /// Starts the thread; the supervisor must outlive it.
   void start(Supervisor& supervisor, const ThreadTraits& traits);
+  void stop();  ///< waits for the running callback, and runs no more
+  /// Returns whether the calling thread is this one.
+  bool isCurrent() const { return id_ == std::this_thread::get_id(); }
 
  private:
   // Runs each callback as a piece of work of the thread's top.
@@ -45,6 +49,7 @@ class QueueThread {
 
   Queue queue_{*this};
   ThreadTop* top_ = nullptr;  // from start() on
+  std::atomic<std::thread::id> id_;
   std::atomic<bool> stopping_ = false;
   std::thread thread_;
 };

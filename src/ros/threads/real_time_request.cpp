@@ -2,7 +2,7 @@
 
 #include <ros/console.h>
 
-#include "ros/process.h"
+#include "ros/process/process.h"
 
 namespace sweep_guard_ros {
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <thread>
 
-#include "ros/log_throttle.h"
+#include "ros/process/log_throttle.h"
 #include "ros/threads/stall_timer.h"
 #include "ros/threads/thread_top.h"
 #include "sweep_guard/common/priority_mutex.h"

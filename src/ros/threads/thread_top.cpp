@@ -5,20 +5,10 @@
 #include "ros/threads/supervisor.h"
 
 namespace sweep_guard_ros {
-namespace {
-
-thread_local ThreadTop* current = nullptr;
-
-}  // namespace
 
 void ThreadTop::enter() {
-  current = this;
   pthread_setname_np(pthread_self(), traits_.name);
   thread_.emplace();
-}
-
-void ThreadTop::reportFailure(const char* what) noexcept {
-  if (current != nullptr) current->failed(what);
 }
 
 void ThreadTop::failed(const char* what) noexcept { supervisor_.failed(traits_, what); }

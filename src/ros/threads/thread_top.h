@@ -20,12 +20,17 @@ struct ThreadTraits {
   bool loses_latched = false;  ///< work that fails may be a latched message, which is not sent again
 };
 
+/// Thrown instead of a std::exception where roscpp would catch that and only log it.
+struct PassesRoscpp {
+  const char* what;  ///< lives as long as the process
+};
+
 /// The top of one thread: runs its pieces of work, and catches what they throw.
 class ThreadTop {
  public:
   ThreadTop(Supervisor& supervisor, const ThreadTraits& traits) : supervisor_(supervisor), traits_(traits) {}
 
-  void enter();  ///< makes this the top of the calling thread, and names the thread
+  void enter();  ///< called by the thread first: names it
 
   /// Runs a piece of work of this thread. The supervisor hears of exceptions.
   /// @param allowance  time that the work may take beyond the usual limit before it counts as hung
@@ -46,13 +51,12 @@ class ThreadTop {
       work();
     } catch (const std::exception& error) {
       failed(error.what());
+    } catch (const PassesRoscpp& error) {
+      failed(error.what);
     } catch (...) {
       failed("unknown exception");
     }
   }
-
-  /// Tells the supervisor that the calling thread caught an exception at its top, if it has one.
-  static void reportFailure(const char* what) noexcept;
 
   const ThreadTraits& traits() const { return traits_; }
   sweep_guard_core::Heartbeat::Reading heartbeat() const { return heartbeat_.read(); }

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "ros/connection/peer_watch.h"
+#include "ros/guard/guard_state.h"
+#include "ros/input/mesh_input.h"
+#include "ros/input/other_tools.h"
+#include "ros/input/pose_input.h"
+
+namespace sweep_guard_ros {
+
+/// Receives what the guard needs to know: transforms, poses, meshes and other tools, each in a thread of its own. Connects
+/// them again to publishers that were out of reach.
+class Inputs {
+ public:
+  /// @param master  looks for publishers; must be stopped before this is destroyed
+  Inputs(const ros::NodeHandle& node, GuardState& state, MasterThread& master);
+
+  void start();
+  void takeEarly() { meshes_.takeEarly(); }               ///< as MeshInput
+  void applyLateChanges() { poses_.applyLateChanges(); }  ///< as PoseInput
+
+  const PoseInput& poses() const { return poses_; }
+  const MeshInput& meshes() const { return meshes_; }
+
+ private:
+  GuardState& state_;
+  PoseInput poses_;
+  MeshInput meshes_;
+  OtherTools other_tools_;
+  PeerWatch peer_watch_;
+};
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,142 @@
+#include "ros/input/tool_path.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard_core::PoseWithFrames;
+using sweep_guard_core::Time;
+
+constexpr sweep_guard_core::Duration kBeforeChange = std::chrono::nanoseconds(1);  // of place, a pose was where it was
+
+// Moves the tool with all that belongs to it by a motion of the fixed frame.
+void moveTool(const Eigen::Isometry3d& motion_W, PoseWithFrames& pose) {
+  pose.X_WT = motion_W * pose.X_WT;
+  for (sweep_guard_core::BodyPose& body : pose.bodies) body.X_WB = motion_W * body.X_WB;
+  pose.state.X_WR = motion_W * pose.state.X_WR;
+}
+
+std::set<std::string> movedFrames(const MovingFrames::Poses& before, const MovingFrames::Poses& now) {
+  std::set<std::string> moved;
+  for (const auto& [frame, X_WM] : now) {
+    const auto known = before.find(frame);
+    if (known != before.end() && known->second.matrix() != X_WM.matrix()) moved.insert(frame);
+  }
+  return moved;
+}
+
+}  // namespace
+
+// Nobody knows when static transforms changed: after what had come in before.
+void ToolPath::note(Time stamp, std::uint64_t static_changes) {
+  if (static_changes > static_changes_ && !changed_after_) changed_after_ = newest_stamp_.value_or(Time());
+  static_changes_ = std::max(static_changes_, static_changes);
+  newest_stamp_ = std::max(newest_stamp_.value_or(stamp), stamp);
+}
+
+std::optional<Time> ToolPath::push(std::vector<ArticulatedTool::Pose>& poses, const Origin& origin) {
+  useWorkpieceFrames();
+  const Time stamp = poses.back().stamp;
+  const bool changed = changed_after_ && *changed_after_ < stamp;
+  const bool twice = changed && placed_.X_WF;
+  const Checkpoint before = placed_.checkpoint;
+  path_.clear();
+  if (twice) path_.push_back(placed_);
+  for (ArticulatedTool::Pose& pose : poses) {
+    PoseWithFrames placed = place(pose, origin);
+    if (changed) path_.push_back(placed_);
+    if (twice) placed.stamp = std::min(placed.stamp, stamp - kBeforeChange);
+    if (!changed || twice) queue(std::move(placed), twice ? before : origin.checkpoint);
+  }
+  if (!changed) return std::nullopt;
+  changed_after_.reset();
+  anew_ = twice ? path_.size() - 1 : 0;
+  return repeat_at_ = stamp;
+}
+
+Time ToolPath::endAtNewest(std::uint64_t static_changes) {
+  static_changes_ = static_changes;
+  changed_after_.reset();
+  path_.clear();
+  if (!placed_.X_WF) return newest_stamp_.value_or(Time());
+  path_.push_back(placed_);
+  path_.back().pose.received = std::chrono::steady_clock::now();
+  anew_ = 1;
+  return repeat_at_ = placed_.pose.stamp + kBeforeChange;
+}
+
+// What is placed anew does not move on the path, but for the tool.
+void ToolPath::repeat(std::set<std::string> frames, const Checkpoint& checkpoint) {
+  if (path_.empty()) return;
+  sweep_guard_core::PlacedAnew placed_anew;
+  placed_anew.frames = std::move(frames);
+  placed_anew.tool = movePath();
+  const MovingFrames::Poses X_WM = dependencies_.moving_frames.resting(*workpiece_frames_);
+  placed_anew.frames.merge(movedFrames(path_.front().pose.X_WM, X_WM));
+  const sweep_guard_core::SteadyTime received = path_.back().pose.received;
+  for (size_t i = 0; i < path_.size(); ++i) {
+    PoseWithFrames& pose = path_[i].pose;
+    if (anew_ > 0) pose.stamp = repeat_at_;
+    pose.received = received;
+    pose.X_WM = X_WM;
+    pose.jump.clear();
+    if (i < anew_) pose.anew = placed_anew;
+    placed_anew.goes_on = true;
+    queue(pose, checkpoint);
+  }
+  placed_ = path_.back();
+  placed_.pose.anew.reset();
+  placed_.X_WF = dependencies_.frames.find(fixed_frame_, placed_.frame, repeat_at_);
+}
+
+void ToolPath::clear() {
+  placed_.X_WF.reset();
+  newest_stamp_.reset();
+}
+
+void ToolPath::useWorkpieceFrames() {
+  const auto frames = dependencies_.workpieces.frames();
+  if (frames == workpiece_frames_) return;
+  workpiece_frames_ = frames;
+  dependencies_.frames.use("workpieces", fixed_frame_, *frames);
+}
+
+PoseWithFrames ToolPath::place(ArticulatedTool::Pose& pose, const Origin& origin) {
+  auto& [stamp, X_WT, bodies, state, jump] = pose;
+  if (placed_.X_WF) stamp = std::max(stamp, placed_.pose.stamp);  // after a change that was applied late
+  PoseWithFrames placed{stamp, origin.received, X_WT, {}, std::move(bodies), std::move(state)};
+  placed.jump = std::move(jump);
+  placed.X_WM = dependencies_.moving_frames.locate(*workpiece_frames_, stamp);
+  placed_.X_WF = dependencies_.frames.find(fixed_frame_, origin.frame, stamp);
+  placed_.frame = origin.frame;
+  placed_.checkpoint = origin.checkpoint;
+  placed_.pose = placed;
+  return placed;
+}
+
+void ToolPath::queue(PoseWithFrames pose, const Checkpoint& checkpoint) {
+  if (dependencies_.queue.push({std::move(pose), checkpoint})) return;
+  dependencies_.monitor.fault(sweep_guard_core::kPosesUnswept, "tool poses were dropped: too many wait to be swept");
+}
+
+// Returns whether the tool is elsewhere on the path. A pose that tf has forgotten moves as the one after it.
+bool ToolPath::movePath() {
+  bool moved = false;
+  Eigen::Isometry3d motion_W = Eigen::Isometry3d::Identity();
+  for (auto placed = path_.rbegin(); placed != path_.rend(); ++placed) {
+    const auto X_WF = dependencies_.frames.find(fixed_frame_, placed->frame, placed->pose.stamp);
+    if (X_WF && placed->X_WF) {
+      const bool rests = X_WF->matrix() == placed->X_WF->matrix();
+      motion_W = rests ? Eigen::Isometry3d::Identity() : *X_WF * placed->X_WF->inverse();
+      moved = moved || !rests;
+    }
+    moveTool(motion_W, placed->pose);
+    if (placed->X_WF) placed->X_WF = motion_W * *placed->X_WF;
+  }
+  return moved;
+}
+
+}  // namespace sweep_guard_ros
