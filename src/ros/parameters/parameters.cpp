@@ -1,3 +1,4 @@
+// A table, which is longer than other files: readAll() and what it calls list all parameters in the order of the documents.
 #include "ros/parameters/parameters.h"
 
 #include <ros/console.h>
