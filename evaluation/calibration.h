@@ -18,7 +18,7 @@ struct ObjectPredictions {
   const RecordedMotion& motion;
   const GuardFindings& findings;
   size_t object;
-  const std::vector<TouchInterval>& touches;
+  const std::vector<TimeInterval>& touches;
 };
 
 /// Returns the outcomes of the predictions from one pose in every 50 ms, so that a minute counts the same whatever the

@@ -30,16 +30,13 @@ class DelayedGuard {
   const DelayedGuardOptions& options() const { return options_; }
 
  private:
-  struct Measurement {
-    Eigen::Isometry3d X_WT;
-    std::shared_ptr<const sweep_guard_core::PlaneSet> planes;
-  };
-  const Measurement* newest(sweep_guard_core::Time now, sweep_guard_core::Duration delay) const;
+  using Planes = std::shared_ptr<const sweep_guard_core::PlaneSet>;
 
+  Planes newest(sweep_guard_core::Time now, sweep_guard_core::Duration delay) const;
   const DelayedGuardOptions options_;
   std::shared_ptr<const sweep_guard_core::ToolBalls> tool_;
   sweep_guard_core::MotionGuard guard_;
-  std::deque<Measurement> measurements_;  // the newest last
+  std::deque<Planes> measured_;  // the newest last
 };
 
 }  // namespace sweep_guard_evaluation

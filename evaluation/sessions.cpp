@@ -14,7 +14,7 @@ namespace {
 
 double minutesOf(const RecordedMotion& motion) {
   double seconds = 0.0;
-  for (const RecordedMotion::Segment& segment : motion.segments()) {
+  for (const auto& segment : motion.segments()) {
     seconds += sweep_guard_core::toSeconds(segment.end - segment.begin);
   }
   return seconds / 60.0;

@@ -39,7 +39,7 @@ class Sessions {
  private:
   struct Object {
     ObstacleMesh mesh;
-    std::vector<TouchInterval> touches;
+    std::vector<TimeInterval> touches;
     SessionCount count;
   };
   struct Part {

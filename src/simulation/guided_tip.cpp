@@ -40,12 +40,12 @@ GuidedTip::GuidedTip(const Eigen::Isometry3d& X_WT, const Limits& limits) : X_WT
 }
 
 void GuidedTip::moveAt(const Twist& desired, double dt) {
-  const Vector3d linear = bounded(desired.linear, limits_.speed);
-  const Vector3d angular = bounded(desired.angular, limits_.turn_rate);
-  velocity_.linear += bounded(linear - velocity_.linear, limits_.acceleration * dt);
-  velocity_.angular += bounded(angular - velocity_.angular, limits_.turn_acceleration * dt);
-  X_WT_.translation() += velocity_.linear * dt;
-  const Vector3d turn = velocity_.angular * dt;
+  const Vector3d linear = bounded(desired.v_W, limits_.speed);
+  const Vector3d angular = bounded(desired.w_W, limits_.turn_rate);
+  velocity_.v_W += bounded(linear - velocity_.v_W, limits_.acceleration * dt);
+  velocity_.w_W += bounded(angular - velocity_.w_W, limits_.turn_acceleration * dt);
+  X_WT_.translation() += velocity_.v_W * dt;
+  const Vector3d turn = velocity_.w_W * dt;
   const Eigen::Quaterniond turned =
       Eigen::AngleAxisd(turn.norm(), turn.stableNormalized()) * Eigen::Quaterniond(X_WT_.linear());
   X_WT_.linear() = turned.normalized().toRotationMatrix();

@@ -102,7 +102,7 @@ class OutcomesTest : public testing::Test {
 
   RecordedMotion motion_{straightMotion(0.1, milliseconds(10), std::chrono::seconds(4))};
   GuardFindings findings_;
-  std::vector<TouchInterval> touches_ = {{at(2000), at(2500)}};
+  std::vector<TimeInterval> touches_ = {{at(2000), at(2500)}};
 };
 
 TEST_F(OutcomesTest, AreMetIfATouchBeginsWithinTheInterval) {

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <optional>
 
+#include "sweep_guard/common/stamped_pose.h"
 #include "sweep_guard/haptics/contact_force.h"
 #include "sweep_guard/motion/motion_guard.h"
 #include "sweep_guard/motion/motion_permission.h"
@@ -15,12 +16,6 @@ struct ForceLimits {
   Duration silence = std::chrono::milliseconds(50);           ///< of poses and planes, by receipt, > 0
   Duration ramp = std::chrono::milliseconds(20);              ///< in which the force then goes to zero, > 0
   Duration pose_age = std::chrono::milliseconds(150);         ///< by stamp, > 0
-};
-
-/// What is known when a force is to be sent.
-struct ForceEvidence {
-  PermissionInputs guard;            ///< but for PermissionInputs::command
-  std::optional<Timestamps> device;  ///< newest pose that the device tells itself; empty: the tool stands for it
 };
 
 struct ForcePermission {
@@ -36,7 +31,10 @@ struct ForcePermission {
 /// | no pose or no planes yet, an old pose, planes past `valid_until`, incomplete or of an unknown tool | 0 |
 /// | pose, planes or device silent for `silence` | from 1 down to 0 within `ramp` |
 /// | otherwise | 1 |
-ForcePermission decideForce(const ForceEvidence& evidence, const Instant& now, const ForceLimits& limits);
+/// @param inputs  but for PermissionInputs::command
+/// @param device  newest pose that the device reports itself; empty: the tool stands for it
+ForcePermission decideForce(const PermissionInputs& inputs, const std::optional<Timestamps>& device, const Instant& now,
+                            const ForceLimits& limits);
 
 /// A device that is sampled and driven with a period, and the damper that is simulated with it.
 struct SampledDevice {
@@ -110,11 +108,6 @@ class ForceRenderer {
   const ForceOptions& options() const { return options_; }
 
  private:
-  struct Sample {
-    Eigen::Isometry3d X_WT;
-    Time stamp;
-  };
-
   void measureVelocity(const MotionInputs::ToolPose& pose);
   void measureDelay(const Timestamps& pose, const Instant& now);
   double stiffnessGain(const DeviceWrench& stiff) const;
@@ -123,9 +116,9 @@ class ForceRenderer {
 
   const ForceOptions options_;
   ContactForceFinder finder_;
-  std::optional<Sample> newest_;  // pose of the tool
-  Twist twist_W_;                 // low-passed
-  double delay_ = 0.0;            // longest lately [s]
+  std::optional<StampedPose> newest_;  // of the tool
+  Twist twist_W_;                      // low-passed
+  double delay_ = 0.0;                 // longest lately [s]
   std::optional<SteadyTime> rendered_;
   DeviceWrench unfaded_;  // of the last call, before the gain of the permission
   bool faded_ = false;    // by a gain below 1

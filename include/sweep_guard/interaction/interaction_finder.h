@@ -59,12 +59,6 @@ struct Interaction {
   Workpieces unplaced;  ///< left out because their frame is unknown at the pose
 };
 
-struct InteractionRequest {
-  const PoseWithFrames& pose;
-  const Workpieces& workpieces;
-  const InteractionOptions& options;
-};
-
 /// The convex pieces of a tool, by body, ready for InteractionFinder.
 using InterpenetrationFinders = std::vector<std::vector<InterpenetrationFinder>>;
 
@@ -86,7 +80,8 @@ class InteractionFinder {
   }
 
   /// @param[out] interaction  overwritten; its buffers are used again
-  void find(const InteractionRequest& request, Interaction& interaction);
+  void find(const PoseWithFrames& pose, const Workpieces& workpieces, const InteractionOptions& options,
+            Interaction& interaction);
 
   void reset() { motions_.clear(); }  ///< forgets the poses
 

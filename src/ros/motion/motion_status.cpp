@@ -11,6 +11,7 @@ namespace {
 
 using sweep_guard::MotionStatus;
 using sweep_guard_core::GuardedMotion;
+using sweep_guard_core::Moved;
 using sweep_guard_core::Permission;
 using sweep_guard_core::PermissionCause;
 using sweep_guard_core::printable;
@@ -48,7 +49,7 @@ std::string textOf(const MotionStatus& status, Permission permission) {
 }
 
 // It is not the surfaces that limit the command.
-void sayThatItStands(const CommandPort::Lead& lead, MotionStatus& status) {
+void sayThatItStands(const Moved& lead, MotionStatus& status) {
   const bool waits = !(status.sent_speed > 0.0);
   status.code = waits ? MotionStatus::HALT_FOR_COLLISION : MotionStatus::DECELERATE_FOR_COLLISION;
   if (waits) status.scale = 0.0;
@@ -62,7 +63,7 @@ void sayThatItStands(const CommandPort::Lead& lead, MotionStatus& status) {
 }  // namespace
 
 MotionStatus statusOf(const GuardedMotion& motion, const sweep_guard::Proximity* planes,
-                      const std::optional<CommandPort::Lead>& lead) {
+                      const std::optional<Moved>& lead) {
   MotionStatus status = emptyStatus();
   status.code = codeOf(motion);
   status.cause = sweep_guard_core::textOf(motion.decision.cause);
