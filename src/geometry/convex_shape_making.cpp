@@ -82,13 +82,13 @@ ConvexShape ConvexShape::cylinder(double radius, double length, int sides) {
   if (!usableLength(length)) throw InvalidInput("cylinder length: must be finite and >= 0 m");
   if (radius == 0.0 && length == 0.0) throw InvalidInput("cylinder: radius and length are both 0; give it a size");
   if (sides < 3 || sides > 1000) throw InvalidInput("cylinder sides: must be 3 to 1000");
-  const ShapeSurface surface = cylinderSurface(radius, length, sides);
+  const TriangleSurface surface = cylinderSurface(radius, length, sides);
   return {Round{radius, length}, surface.vertices, surface.triangles};
 }
 
 ConvexShape ConvexShape::sphere(double radius) {
   if (!usableLength(radius) || radius == 0.0) throw InvalidInput("sphere radius: must be finite and > 0 m");
-  const ShapeSurface surface = sphereSurface(radius);
+  const TriangleSurface surface = sphereSurface(radius);
   ConvexShape sphere(Points({Eigen::Vector3d::Zero()}), surface.vertices, surface.triangles);
   return sphere.padded(radius);
 }
@@ -98,7 +98,7 @@ ConvexShape ConvexShape::box(const Eigen::Vector3d& half_extents) {
     if (!usableLength(half)) throw InvalidInput("box size: must be finite and >= 0 m");
   }
   if (half_extents.isZero(0.0)) throw InvalidInput("box size: all three are 0; give it a size");
-  const ShapeSurface surface = boxSurface(half_extents);
+  const TriangleSurface surface = boxSurface(half_extents);
   return {Box{half_extents}, surface.vertices, surface.triangles};
 }
 

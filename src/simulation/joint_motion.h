@@ -6,17 +6,13 @@
 #include <vector>
 
 #include "ros/tool/tool_model.h"
-#include "sweep_guard/common/time.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
+#include "sweep_guard/kinematics/joint_timeline.h"
 #include "sweep_guard/kinematics/kinematic_tree.h"
 
 namespace sweep_guard_simulation {
 
-/// The positions of all joints of a robot at one moment.
-struct StampedPositions {
-  sweep_guard_core::Time stamp;
-  std::vector<double> positions;  ///< one of each variable of the tree [rad or m]
-};
+using sweep_guard_core::StampedPositions;
 
 /// Reads the motion of a robot's joints from the sensor_msgs/JointState of a rosbag, which may come from several nodes, each
 /// with joints of its own. The motion begins when all joints are known, and ends when the first of them ends.

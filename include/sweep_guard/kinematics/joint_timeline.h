@@ -8,17 +8,17 @@
 
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/sample_buffer.h"
-#include "sweep_guard/common/time.h"
+#include "sweep_guard/common/stamped_pose.h"
 #include "sweep_guard/kinematics/robot_motion.h"
 
 namespace sweep_guard_core {
 
-/// A position of one quantity at one moment.
-template <typename Value>
-struct StampedValue {
+/// The positions of all joints of a robot at one time.
+struct StampedPositions {
   Time stamp;
-  Value value;
+  std::vector<double> positions;  ///< one of each variable of the tree [rad or m]
 };
+
 template <typename Value>
 using Track = SampleBuffer<StampedValue<Value>>;
 
