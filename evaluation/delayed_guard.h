@@ -15,7 +15,7 @@ struct DelayedGuardOptions {
   sweep_guard_core::Duration plane_delay = std::chrono::milliseconds(20);  ///< until its planes arrive, >= pose_delay
 };
 
-/// A motion guard that learns of the tool and of the surfaces late. A copy goes on from the same state.
+/// A motion guard that learns of the tool and of the surfaces late. A copy continues from the same state.
 class DelayedGuard {
  public:
   DelayedGuard(const sweep_guard_core::Tool& tool, const DelayedGuardOptions& options);

@@ -36,13 +36,13 @@ SimulatedRobot::SimulatedRobot(const Eigen::Isometry3d& X_WT, const RobotDelays&
     : p_WT_(X_WT.translation()),
       q_WT_(X_WT.linear()),
       gain_(gainOf(delays)),
-      on_the_way_W_(static_cast<size_t>(delays.dead_time / kStep)) {}
+      delayed_W_(static_cast<size_t>(delays.dead_time / kStep)) {}
 
 void SimulatedRobot::step() {
   Twist arriving_W = sent_W_;
-  if (!on_the_way_W_.empty()) {
-    std::swap(arriving_W, on_the_way_W_[oldest_]);
-    oldest_ = (oldest_ + 1) % on_the_way_W_.size();
+  if (!delayed_W_.empty()) {
+    std::swap(arriving_W, delayed_W_[oldest_]);
+    oldest_ = (oldest_ + 1) % delayed_W_.size();
   }
   velocity_W_.v_W += gain_ * (arriving_W.v_W - velocity_W_.v_W);
   velocity_W_.w_W += gain_ * (arriving_W.w_W - velocity_W_.w_W);

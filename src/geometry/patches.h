@@ -9,9 +9,9 @@
 
 namespace sweep_guard_core {
 
-/// Sorts triangles into patches: two belong to one patch if they are alone at an edge, or by way of others. The triangles of a patch
-/// are turned into one direction, that of its first triangle. A patch that cannot be, as a Moebius strip, has borders
-/// where directions clash.
+/// Sorts triangles into patches: two belong to one patch if no third one shares their edge, or through a chain of such
+/// neighbors. The triangles of a patch are turned into one direction, that of its first triangle. A patch that cannot
+/// be, as a Moebius strip, has borders where directions clash.
 class Patches {
  public:
   /// @param edges  of triangles that are not left out; must live as long as this

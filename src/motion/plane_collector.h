@@ -7,8 +7,8 @@
 
 namespace sweep_guard_core {
 
-/// Adds planes to a Proximity, and counts what stands behind each: the speed of its surface, its way since it was last
-/// heard of, and in contact its depth.
+/// Adds planes to a Proximity, and counts what stands behind each: the speed of its surface, its displacement since its
+/// last update, and in contact its depth.
 class PlaneCollector {
  public:
   /// @param X_WT, planes  must outlive the collector; `planes` is added to

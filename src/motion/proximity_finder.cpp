@@ -262,7 +262,7 @@ bool ProximityFinder::Search::standFor(const WaitingPart& waiting, const Separat
 }
 
 bool ProximityFinder::Search::leaveOver(double distance) {
-  found_.uncovered.distance = std::max(0.0, distance - facings_.rounding() - facings_.longestWay());
+  found_.uncovered.distance = std::max(0.0, distance - facings_.rounding() - facings_.maxDisplacement());
   found_.uncovered.speed = facings_.fastest();
   return false;
 }

@@ -13,8 +13,8 @@ struct TimeInterval {
 };
 
 /// An interval of level CONTACT, and since when the guard had warned of it: the level was CONSIDERED or higher (REFLEX
-/// or higher) from then on without a break. Equal to the begin of the contact if there was no warning. What is left of
-/// the warning of an earlier contact does not count.
+/// or higher) from then on without a break. Equal to the begin of the contact if there was no warning. A warning that
+/// remains from an earlier contact does not count.
 struct WarnedContact {
   TimeInterval contact;
   sweep_guard_core::Time considered_since;
@@ -31,8 +31,8 @@ class LevelTrace {
     if (changes_.empty() || changes_.back().level != level) changes_.push_back({time, level});
   }
 
-  /// Returns the intervals in which the level was `min_level` or higher without a break. The last one ends at the newest time if the
-  /// level is still as high.
+  /// Returns the intervals in which the level was `min_level` or higher without a break. The last one ends at the newest
+  /// time if the level is still as high.
   /// @param min_level  kConsidered, kReflex or kContact
   std::vector<TimeInterval> alarms(sweep_guard_core::WarningLevel min_level) const {
     std::vector<TimeInterval> alarms;

@@ -13,7 +13,7 @@
 
 namespace sweep_guard_session {
 
-/// What a guard counted in a session, and the newest shape of the workpieces.
+/// Keeps the touches that a guard counted in a session, and the newest shape of each workpiece.
 class TouchLog {
  public:
   void take(const sweep_guard::DeformableMesh::ConstPtr& mesh) { meshes_[mesh->id] = mesh; }

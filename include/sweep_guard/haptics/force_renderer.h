@@ -10,7 +10,7 @@
 
 namespace sweep_guard_core {
 
-/// When a force is taken back.
+/// When a force is withdrawn.
 struct ForceLimits {
   Duration warning_silence = std::chrono::milliseconds(150);  ///< by receipt, > 0
   Duration silence = std::chrono::milliseconds(50);           ///< of poses and planes, by receipt, > 0
@@ -58,7 +58,7 @@ double maxStiffness(const SampledDevice& device, double delay);
 /// @param lever         [m]
 double dampingWithLever(double damping, double turn_damping, double lever);
 
-/// What a device exerts on its hand, along the axes of its frame D.
+/// Force and torque of a device on the hand, along the axes of its frame D.
 struct DeviceWrench {
   Eigen::Vector3d force_D = Eigen::Vector3d::Zero();   ///< [N]
   Eigen::Vector3d torque_D = Eigen::Vector3d::Zero();  ///< [N m]
@@ -66,8 +66,8 @@ struct DeviceWrench {
 
 struct ForceOptions {
   ContactLaw law;
-  double position_scale = 1.0;                     ///< way of the tool for a way of the device [-], > 0
-  double force_scale = 1.0;                        ///< force at the device for a force on the tool [-], > 0
+  double position_scale = 1.0;                     ///< displacement of the tool per displacement of the device [-], > 0
+  double force_scale = 1.0;                        ///< force at the device per force on the tool [-], > 0
   double max_force = 3.0;                          ///< at the device [N], > 0
   double max_force_rate = 500.0;                   ///< [N/s], > 0
   double max_torque = 0.0;                         ///< at the device [N m], >= 0; 0: no torque
@@ -91,11 +91,11 @@ struct RenderedForce {
   ForcePermission permission;
   double depth = 0.0;           ///< of the tool [m]
   double stiffness_gain = 1.0;  ///< share of the stiffness that the delay allows, in [0, 1]
-  Duration delay{};             ///< that is counted on: the longest lately, and the output's
+  Duration delay{};             ///< that is assumed: the longest lately, plus that of the output
 };
 
-/// Computes the force of the surfaces around the tool for a device, clamped in size and rate. What it returns may be active:
-/// PassiveDevice follows. One thread at a time. It allocates nothing.
+/// Computes the force of the surfaces around the tool for a device, clamped in size and rate. The result may be active:
+/// PassiveDevice limits it afterwards. One thread at a time. It allocates nothing.
 class ForceRenderer {
  public:
   /// @throws InvalidInput  if an option is NaN or out of range

@@ -13,7 +13,7 @@
 
 namespace sweep_guard_core {
 
-/// How a workpiece answers to a piece of the tool inside of it.
+/// How a workpiece resists a piece of the tool inside it.
 struct ForceLaw {
   double stiffness = 1e6;    ///< force per volume [N/m^3], >= 0: the foundation modulus of an elastic layer
   double damping = 0.0;      ///< [s/m], >= 0: by which share the force grows per closing speed [Hunt and Crossley 1975]

@@ -55,7 +55,7 @@ void sayThatItStands(const Moved& lead, MotionStatus& status) {
   if (waits) status.scale = 0.0;
   status.cause = "the tool does not follow";
   char ahead[96];
-  std::snprintf(ahead, sizeof ahead, ": the pose sent waits %.1f mm and %.1f degrees ahead of it", 1e3 * lead.way,
+  std::snprintf(ahead, sizeof ahead, ": the pose sent waits %.1f mm and %.1f degrees ahead of it", 1e3 * lead.distance,
                 lead.turn * 180.0 / M_PI);
   status.text = status.cause + ahead;
 }

@@ -21,7 +21,7 @@ sweep_guard::MotionStatus statusOf(const sweep_guard_core::GuardedMotion& motion
 /// @param reason  whole text
 sweep_guard::MotionStatus refusedStatus(const std::string& reason);
 
-/// Describes that no command is there.
+/// Describes that there is no command.
 sweep_guard::MotionStatus idleStatus(const sweep_guard_core::PermissionDecision& decision);
 
 /// Returns whether two statuses differ for a reader: their ages and times may.
