@@ -84,7 +84,7 @@ TEST(CalibrationTest, TheFitFallsEvenWhereTheFrequencyRises) {
 class OutcomesTest : public testing::Test {
  protected:
   std::vector<PredictionOutcome> outcomes(Duration interval) const {
-    return outcomesOf({motion_, findings_, 0, touches_}, interval);
+    return outcomesOf(motion_, findings_, 0, touches_, interval);
   }
 
   static Time at(int ms) { return Time(milliseconds(ms)); }
