@@ -4,20 +4,18 @@
 #include <cmath>
 #include <utility>
 
+#include "prediction/motion_space.h"
+
 namespace sweep_guard_evaluation {
 
+using sweep_guard_core::limited;
 using sweep_guard_core::toSeconds;
 using sweep_guard_core::Twist;
 
 namespace {
 
-Eigen::Vector3d shortened(const Eigen::Vector3d& vector, double length) {
-  const double norm = vector.norm();
-  return norm > length ? Eigen::Vector3d(length / norm * vector) : vector;
-}
-
 Eigen::Vector3d clipped(const Eigen::Vector3d& wanted, const Eigen::Vector3d& last, double fastest, double step) {
-  return shortened(last + shortened(shortened(wanted, fastest) - last, step), fastest);
+  return limited(last + limited(limited(wanted, fastest) - last, step), fastest);
 }
 
 double gainOf(const RobotDelays& delays) {
