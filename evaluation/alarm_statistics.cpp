@@ -8,7 +8,7 @@ using std::chrono::milliseconds;
 using sweep_guard_core::Duration;
 using sweep_guard_core::Time;
 using sweep_guard_core::WarningLevel;
-using sweep_guard_recording::Alarm;
+using sweep_guard_recording::TimeInterval;
 
 const std::array<AlarmRule, 2>& alarmRules() {
   static const std::array<AlarmRule, 2> kRules = {
@@ -19,8 +19,8 @@ const std::array<AlarmRule, 2>& alarmRules() {
 
 std::optional<Duration> leadOf(const Episode& episode, const AlarmRule& rule) {
   const Time contact = episode.placement.contact.value();
-  const std::vector<Alarm> alarms = episode.levels.alarms(rule.min_level);
-  const auto on = std::find_if(alarms.begin(), alarms.end(), [&](const Alarm& alarm) {
+  const std::vector<TimeInterval> alarms = episode.levels.alarms(rule.min_level);
+  const auto on = std::find_if(alarms.begin(), alarms.end(), [&](const TimeInterval& alarm) {
     return alarm.end >= contact && (alarm.begin <= contact || rule.at_contact);
   });
   if (on == alarms.end()) return std::nullopt;
@@ -31,7 +31,7 @@ size_t countFalseAlarms(const Episode& episode, const AlarmRule& rule) {
   const ObstaclePlacement& placement = episode.placement;
   const Time justified = placement.contact ? *placement.contact - rule.window : placement.end;
   size_t count = 0;
-  for (const Alarm& alarm : episode.levels.alarms(rule.min_level)) {
+  for (const TimeInterval& alarm : episode.levels.alarms(rule.min_level)) {
     if (alarm.begin >= justified) continue;
     const Duration unjustified = std::min(alarm.end, justified) - alarm.begin;
     count += 1 + static_cast<size_t>(unjustified / rule.window);

@@ -85,19 +85,19 @@ ReliabilityBin binOf(const Forecast* begin, const Forecast* end) {
 
 }  // namespace
 
-std::vector<PredictionOutcome> outcomesOf(const ObjectPredictions& predictions, Duration interval) {
-  const ObjectFindings& object = predictions.findings.objects[predictions.object];
+std::vector<PredictionOutcome> outcomesOf(const RecordedMotion& motion, const GuardFindings& findings, size_t object,
+                                          const std::vector<TimeInterval>& touches, Duration interval) {
+  const ObjectFindings& found_of = findings.objects[object];
   std::vector<PredictionOutcome> outcomes;
-  auto touch = predictions.touches.begin();
-  for (size_t found = 0; found < object.poses.size(); ++found) {
-    const Time stamp = predictions.findings.stamps[object.poses[found].pose];
-    const double nearest = nearestWithin(object, found, interval);
-    while (touch != predictions.touches.end() && touch->end < stamp) ++touch;
-    const bool to_come = touch != predictions.touches.end();
+  auto touch = touches.begin();
+  for (size_t found = 0; found < found_of.poses.size(); ++found) {
+    const Time stamp = findings.stamps[found_of.poses[found].pose];
+    const double nearest = nearestWithin(found_of, found, interval);
+    while (touch != touches.end() && touch->end < stamp) ++touch;
+    const bool to_come = touch != touches.end();
     const bool touching = to_come && touch->begin <= stamp;
-    const bool recorded = predictions.motion.isContinuous(stamp, stamp + interval);
-    if (!isSampled(predictions.findings.stamps, object.poses[found].pose) || touching || !recorded ||
-        nearest > kMaxDeviations)
+    const bool recorded = motion.isContinuous(stamp, stamp + interval);
+    if (!isSampled(findings.stamps, found_of.poses[found].pose) || touching || !recorded || nearest > kMaxDeviations)
       continue;
     outcomes.push_back({nearest, to_come && touch->begin <= stamp + interval});
   }

@@ -13,19 +13,16 @@ struct PredictionOutcome {
   bool met;           ///< the tool touched the object within the interval
 };
 
-/// What was found about one object along a recorded motion, and the truth.
-struct ObjectPredictions {
-  const RecordedMotion& motion;
-  const GuardFindings& findings;
-  size_t object;
-  const std::vector<TouchInterval>& touches;
-};
-
 /// Returns the outcomes of the predictions from one pose in every 50 ms, so that a minute counts the same whatever the
 /// rate of the poses. Leaves out what says nothing: predictions while the tool touches the object, those whose
 /// interval is not recorded without a gap, and those that are 0.
+/// @param findings  along the motion
+/// @param object    index in the findings
+/// @param touches   of the object: the truth
 /// @param interval  length [s] of the interval that begins at the pose
-std::vector<PredictionOutcome> outcomesOf(const ObjectPredictions& predictions, sweep_guard_core::Duration interval);
+std::vector<PredictionOutcome> outcomesOf(const RecordedMotion& motion, const GuardFindings& findings, size_t object,
+                                          const std::vector<TimeInterval>& touches,
+                                          sweep_guard_core::Duration interval);
 
 /// A probability and whether the event came.
 struct Forecast {

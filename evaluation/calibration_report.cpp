@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "common/csv.h"
 #include "guard/contact_probability.h"
 
@@ -14,12 +16,7 @@ using sweep_guard_core::toSeconds;
 
 namespace {
 
-struct ScaleName {
-  Scale scale;
-  const char* title;
-};
-
-constexpr ScaleName kScales[] = {
+constexpr std::pair<Scale, const char*> kScales[] = {
     {Scale::kPlane, "one plane"}, {Scale::kGuard, "the guard"}, {Scale::kOthers, "fitted to the other recordings"}};
 
 std::vector<PredictionOutcome> allBut(const std::vector<std::vector<PredictionOutcome>>& outcomes, size_t recording) {
@@ -38,27 +35,27 @@ std::string figuresRow(const std::string& name, const std::vector<Forecast>& for
 
 std::string figuresTable(const IntervalCalibration& calibration) {
   std::string table;
-  for (const ScaleName& scale : kScales) {
-    table += fmt::format("  {:<30} {:>8} {:>8} {:>8} {:>8} {:>8}\n", scale.title, "count", "error", "Brier", "skill",
-                         "ratio");
+  for (const auto& [scale, title] : kScales) {
+    table +=
+        fmt::format("  {:<30} {:>8} {:>8} {:>8} {:>8} {:>8}\n", title, "count", "error", "Brier", "skill", "ratio");
     for (size_t i = 0; i < calibration.recordings.size(); ++i) {
-      table += figuresRow(calibration.recordings[i], calibration.forecasts(scale.scale, i));
+      table += figuresRow(calibration.recordings[i], calibration.forecasts(scale, i));
     }
-    table += figuresRow("all", calibration.forecasts(scale.scale));
+    table += figuresRow("all", calibration.forecasts(scale));
   }
   return table;
 }
 
 std::string binsTable(const IntervalCalibration& calibration) {
   std::string table = "  ten equal bins of all recordings: mean probability, frequency\n";
-  for (const ScaleName& scale : kScales) {
+  for (const auto& [scale, title] : kScales) {
     std::string probabilities;
     std::string frequencies;
-    for (const ReliabilityBin& bin : calibrationOf(calibration.forecasts(scale.scale)).bins) {
+    for (const ReliabilityBin& bin : calibrationOf(calibration.forecasts(scale)).bins) {
       probabilities += fmt::format(" {:.3f}", bin.probability);
       frequencies += fmt::format(" {:.3f}", bin.frequency);
     }
-    table += fmt::format("    {:<30}{}\n    {:<30}{}\n", scale.title, probabilities, "", frequencies);
+    table += fmt::format("    {:<30}{}\n    {:<30}{}\n", title, probabilities, "", frequencies);
   }
   return table;
 }
@@ -129,10 +126,10 @@ std::string calibrationTable(const std::vector<IntervalCalibration>& calibration
 std::string calibrationCsv(const std::vector<IntervalCalibration>& calibrations) {
   std::string csv = csvLine({"within_s", "scale", "probability", "frequency"});
   for (const IntervalCalibration& calibration : calibrations) {
-    for (const ScaleName& scale : kScales) {
-      for (const ReliabilityBin& bin : calibrationOf(calibration.forecasts(scale.scale)).bins) {
-        csv += csvLine({csvNumber(toSeconds(calibration.length)), scale.title, csvNumber(bin.probability),
-                        csvNumber(bin.frequency)});
+    for (const auto& [scale, title] : kScales) {
+      for (const ReliabilityBin& bin : calibrationOf(calibration.forecasts(scale)).bins) {
+        csv += csvLine(
+            {csvNumber(toSeconds(calibration.length)), title, csvNumber(bin.probability), csvNumber(bin.frequency)});
       }
     }
   }

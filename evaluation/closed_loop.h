@@ -30,8 +30,8 @@ struct LoopCycle {
   std::optional<Contact> contact;  ///< the first one
 };
 
-/// A simulated robot with a tool and a surface, with or without a guard before the robot. A copy goes on from the same
-/// state.
+/// A simulated robot with a tool and a surface, with or without a guard before the robot. A copy continues from the
+/// same state.
 class ClosedLoop {
  public:
   /// @param scene  must outlive this and all copies, of which only one runs at a time

@@ -26,7 +26,7 @@ constexpr std::array<const char*, kRetreatKinds> kRetreats = {"along the normal"
 constexpr double kKept = 0.99;
 constexpr double kMaxStandoffSpeed = 0.001;  // [m/s]
 
-// A recording, and the placements along the way of the robot without a guard.
+// A recording, and the placements along the path of the robot without a guard.
 struct DrivenRecording {
   std::string name;
   DrivenRobot robot;

@@ -17,7 +17,7 @@ struct ClosedLoopCount {
   std::vector<bool> near_misses;  ///< of each episode: without a guard the tool does not touch the surface
 };
 
-/// Runs placements along recorded motions, as placeObstacles() finds them on the way of the robot without a guard.
+/// Runs placements along recorded motions, as placeObstacles() finds them on the path of the robot without a guard.
 /// @param left_out  placements along a recording at which no episode can begin are added
 std::vector<ClosedLoopCount> countClosedLoops(const std::vector<sweep_guard_recording::Recording>& recordings,
                                               const ClosedLoopSetup& setup, const ObstaclePlacementOptions& placement,
@@ -32,7 +32,7 @@ std::vector<ClosedLoopCount> summed(const std::vector<ClosedLoopCount>& counts);
 /// |---|---|
 /// | recording | name; "all": all of them; with ", surface comes": to a tool that moves as the hand or rests |
 /// | guarded | 1: a motion guard is before the robot |
-/// | placements | squares on the way or near it |
+/// | placements | squares on the path or near it |
 /// | contacts | of these, those that the tool touches |
 /// | speed_at_contact_p95 | closing speed [m/s] |
 /// | free_motion_changed | share of the commands without a surface within reach that were not passed on bit for bit |

@@ -37,15 +37,14 @@ void DelayedGuard::measure(const Eigen::Isometry3d& X_WT, const sweep_guard_core
   planes->uncovered = proximity.uncovered;
   planes->X_WT = X_WT;
   for (const auto& found : proximity.planes) planes->planes.push_back(found.plane);
-  measurements_.push_back({X_WT, std::move(planes)});
-  while (measurements_[0].planes->timestamps.stamp + options_.plane_delay + kValid < now) measurements_.pop_front();
+  measured_.push_back(std::move(planes));
+  while (measured_[0]->timestamps.stamp + options_.plane_delay + kValid < now) measured_.pop_front();
 }
 
-const DelayedGuard::Measurement* DelayedGuard::newest(Time now, Duration delay) const {
-  const auto found = std::find_if(measurements_.rbegin(), measurements_.rend(), [&](const Measurement& measurement) {
-    return measurement.planes->timestamps.stamp + delay <= now;
-  });
-  return found == measurements_.rend() ? nullptr : &*found;
+DelayedGuard::Planes DelayedGuard::newest(Time now, Duration delay) const {
+  const auto found = std::find_if(measured_.rbegin(), measured_.rend(),
+                                  [&](const Planes& planes) { return planes->timestamps.stamp + delay <= now; });
+  return found == measured_.rend() ? nullptr : *found;
 }
 
 Twist DelayedGuard::guard(const Twist& command_W, Duration period, Time now) {
@@ -53,10 +52,10 @@ Twist DelayedGuard::guard(const Twist& command_W, Duration period, Time now) {
   sweep_guard_core::MotionInputs inputs;
   inputs.tool = tool_;
   inputs.warning = {sweep_guard_core::WarningLevel::kClear, 0, at.steady};
-  if (const Measurement* measurement = newest(now, options_.plane_delay)) inputs.planes = measurement->planes;
-  if (const Measurement* measurement = newest(now, options_.pose_delay)) {
-    const Time stamp = measurement->planes->timestamps.stamp;
-    inputs.pose = {measurement->X_WT, {stamp, instantOf(stamp + options_.pose_delay).steady}};
+  inputs.planes = newest(now, options_.plane_delay);
+  if (const Planes planes = newest(now, options_.pose_delay)) {
+    const Time stamp = planes->timestamps.stamp;
+    inputs.pose = {planes->X_WT, {stamp, instantOf(stamp + options_.pose_delay).steady}};
   }
   sweep_guard_core::MotionCommand command;
   command.twist_W = command_W;

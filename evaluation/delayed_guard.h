@@ -15,7 +15,7 @@ struct DelayedGuardOptions {
   sweep_guard_core::Duration plane_delay = std::chrono::milliseconds(20);  ///< until its planes arrive, >= pose_delay
 };
 
-/// A motion guard that learns of the tool and of the surfaces late. A copy goes on from the same state.
+/// A motion guard that learns of the tool and of the surfaces late. A copy continues from the same state.
 class DelayedGuard {
  public:
   DelayedGuard(const sweep_guard_core::Tool& tool, const DelayedGuardOptions& options);
@@ -30,16 +30,13 @@ class DelayedGuard {
   const DelayedGuardOptions& options() const { return options_; }
 
  private:
-  struct Measurement {
-    Eigen::Isometry3d X_WT;
-    std::shared_ptr<const sweep_guard_core::PlaneSet> planes;
-  };
-  const Measurement* newest(sweep_guard_core::Time now, sweep_guard_core::Duration delay) const;
+  using Planes = std::shared_ptr<const sweep_guard_core::PlaneSet>;
 
+  Planes newest(sweep_guard_core::Time now, sweep_guard_core::Duration delay) const;
   const DelayedGuardOptions options_;
   std::shared_ptr<const sweep_guard_core::ToolBalls> tool_;
   sweep_guard_core::MotionGuard guard_;
-  std::deque<Measurement> measurements_;  // the newest last
+  std::deque<Planes> measured_;  // the newest last
 };
 
 }  // namespace sweep_guard_evaluation

@@ -28,7 +28,7 @@ size_t DrivenRobot::cycleAt(Time time) const {
 
 DrivenRobot drive(const RecordedMotion& motion, const RobotLimits& limits, const RobotDelays& delays) {
   DrivenRobot driven;
-  for (const RecordedMotion::Segment& segment : motion.segments()) {
+  for (const auto& segment : motion.segments()) {
     SimulatedRobot robot(motion.at(segment.begin), delays);
     driven.path.push_back({segment.begin, robot.pose()});
     Twist command_W;

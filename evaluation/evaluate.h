@@ -9,7 +9,7 @@
 
 namespace sweep_guard_evaluation {
 
-/// A sample has so much motion before and after it without a gap.
+/// A sample has this much motion before and after it without a gap.
 constexpr sweep_guard_core::Duration kHistory = std::chrono::seconds(1);
 constexpr sweep_guard_core::Duration kFuture = std::chrono::seconds(1);
 

@@ -82,9 +82,9 @@ std::optional<std::vector<double>> positionsOf(const sensor_msgs::JointState& jo
 }
 
 // Messages that lack a joint, or are not later than the one before, are left out.
-std::vector<StampedJoints> readStates(const std::string& bag, const std::string& topic,
-                                      const sweep_guard_core::KinematicTree& tree) {
-  std::vector<StampedJoints> states;
+std::vector<StampedPositions> readStates(const std::string& bag, const std::string& topic,
+                                         const sweep_guard_core::KinematicTree& tree) {
+  std::vector<StampedPositions> states;
   const auto add = [&](const std::string&, const sensor_msgs::JointState& joints) {
     auto positions = positionsOf(joints, tree);
     const sweep_guard_core::Time stamp = sweep_guard_ros::fromMsg(joints.header.stamp);
@@ -106,7 +106,7 @@ int run(int argc, char** argv) {
   const sweep_guard_ros::RobotTree robot = readTree(arguments);
   bool header = true;
   for (const std::string& bag : arguments.bags) {
-    const std::vector<StampedJoints> states = readStates(bag, arguments.topic, robot.tree);
+    const std::vector<StampedPositions> states = readStates(bag, arguments.topic, robot.tree);
     for (const std::string& predictor : arguments.predictors) {
       JointErrorRequest request{robot.tree, robot.links, states, arguments.horizons, {}};
       request.predictor.predictor = predictor;

@@ -24,12 +24,12 @@ constexpr double kFloor = 1e-3;        // [m]
 constexpr double kNineTenths = 6.251;  // of chi^2 with 3 degrees of freedom
 
 // Returns the first index whose stamp is not earlier.
-size_t indexOf(const std::vector<StampedJoints>& states, Time stamp) {
-  const auto earlier = [](const StampedJoints& state, Time time) { return state.stamp < time; };
+size_t indexOf(const std::vector<StampedPositions>& states, Time stamp) {
+  const auto earlier = [](const StampedPositions& state, Time time) { return state.stamp < time; };
   return static_cast<size_t>(std::lower_bound(states.begin(), states.end(), stamp, earlier) - states.begin());
 }
 
-std::vector<double> positionsAt(const std::vector<StampedJoints>& states, Time stamp) {
+std::vector<double> positionsAt(const std::vector<StampedPositions>& states, Time stamp) {
   const size_t i = indexOf(states, stamp);
   std::vector<double> positions = states[i].positions;
   if (states[i].stamp == stamp) return positions;
@@ -105,7 +105,7 @@ class JointComparison {
     return robot;
   }
 
-  void observe(const StampedJoints& joints) {
+  void observe(const StampedPositions& joints) {
     motion_.from.stamp = joints.stamp;
     motion_.from.state.positions = joints.positions;
     bodyPoses(robot_->tree, robot_->bodies, motion_.from.state, X_WB_);

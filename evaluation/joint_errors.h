@@ -3,21 +3,17 @@
 #include <string>
 #include <vector>
 
-#include "sweep_guard/kinematics/robot_motion.h"
+#include "sweep_guard/kinematics/joint_timeline.h"
 #include "sweep_guard/prediction/pose_predictor.h"
 
 namespace sweep_guard_evaluation {
 
-/// The positions of the joints of a robot at one time.
-struct StampedJoints {
-  sweep_guard_core::Time stamp;
-  std::vector<double> positions;  ///< of each variable of a tree [rad or m]
-};
+using sweep_guard_core::StampedPositions;
 
 struct JointErrorRequest {
   const sweep_guard_core::KinematicTree& tree;
   const std::vector<size_t>& links;                  ///< whose origins are compared; indices in the tree
-  const std::vector<StampedJoints>& states;          ///< stamps strictly ascending
+  const std::vector<StampedPositions>& states;       ///< stamps strictly ascending
   std::vector<sweep_guard_core::Duration> horizons;  ///< ascending, > 0
   sweep_guard_core::PredictorOptions predictor;
 };

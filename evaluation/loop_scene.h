@@ -11,8 +11,8 @@
 
 namespace sweep_guard_evaluation {
 
-/// A tool, and a square whose frame M may move: what a guard learns of both, and, computed apart from it, how far apart
-/// they are and whether they touch.
+/// A tool, and a square whose frame M may move. Computes what a guard learns of both and, independently of it, how far
+/// apart they are and whether they touch.
 class LoopScene {
  public:
   /// @param square  in M

@@ -50,8 +50,9 @@ RecordedMotion::RecordedMotion(const std::vector<StampedPose>& poses) : poses_(l
 }
 
 bool RecordedMotion::isContinuous(Time from, Time to) const {
-  const auto after = std::upper_bound(segments_.begin(), segments_.end(), from,
-                                      [](Time time, const Segment& segment) { return time < segment.begin; });
+  const auto after = std::upper_bound(
+      segments_.begin(), segments_.end(), from,
+      [](Time time, const sweep_guard_recording::TimeInterval& segment) { return time < segment.begin; });
   return after != segments_.begin() && to <= std::prev(after)->end;
 }
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "recording/level_trace.h"
 #include "sweep_guard/common/stamped_pose.h"
 
 namespace sweep_guard_evaluation {
@@ -10,20 +11,14 @@ namespace sweep_guard_evaluation {
 /// at constant rate (lerp and slerp). Of poses with equal stamps the last one counts.
 class RecordedMotion {
  public:
-  /// An interval of the recording without a gap.
-  struct Segment {
-    sweep_guard_core::Time begin;
-    sweep_guard_core::Time end;
-  };
-
   /// @param poses  at least one, stamps not decreasing
   explicit RecordedMotion(const std::vector<sweep_guard_core::StampedPose>& poses);
 
   const std::vector<sweep_guard_core::StampedPose>& poses() const { return poses_; }  ///< stamps strictly ascending
 
-  /// Returns the segments in ascending order. A gap is an interval longer than both 0.25 s and three median intervals,
+  /// Returns the intervals without a gap in ascending order. A gap is an interval longer than both 0.25 s and three median intervals,
   /// as for PosePredictor.
-  const std::vector<Segment>& segments() const { return segments_; }
+  const std::vector<sweep_guard_recording::TimeInterval>& segments() const { return segments_; }
 
   /// Returns whether one segment contains both times.
   bool isContinuous(sweep_guard_core::Time from, sweep_guard_core::Time to) const;
@@ -37,7 +32,7 @@ class RecordedMotion {
 
  private:
   std::vector<sweep_guard_core::StampedPose> poses_;
-  std::vector<Segment> segments_;
+  std::vector<sweep_guard_recording::TimeInterval> segments_;
 };
 
 }  // namespace sweep_guard_evaluation

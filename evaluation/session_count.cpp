@@ -23,9 +23,9 @@ bool isContact(const ObjectSession& session, size_t touch) {
   return !again && session.motion.isContinuous(begin - kSessionWindow, begin);
 }
 
-bool isOn(const std::vector<Alarm>& alarms, Time time) {
+bool isOn(const std::vector<TimeInterval>& alarms, Time time) {
   return std::any_of(alarms.begin(), alarms.end(),
-                     [&](const Alarm& alarm) { return alarm.begin <= time && alarm.end >= time; });
+                     [&](const TimeInterval& alarm) { return alarm.begin <= time && alarm.end >= time; });
 }
 
 Time firstPoseFrom(const RecordedMotion& motion, Time time) {
@@ -33,10 +33,12 @@ Time firstPoseFrom(const RecordedMotion& motion, Time time) {
   return motion.poses()[before].stamp == time ? time : motion.poses()[before + 1].stamp;
 }
 
-void countContact(const ObjectSession& session, Time contact, const std::vector<Alarm>& alarms, SessionCount& count) {
+void countContact(const ObjectSession& session, Time contact, const std::vector<TimeInterval>& alarms,
+                  SessionCount& count) {
   ++count.contacts;
-  const auto on = std::find_if(alarms.begin(), alarms.end(),
-                               [&](const Alarm& alarm) { return alarm.begin <= contact && alarm.end >= contact; });
+  const auto on = std::find_if(alarms.begin(), alarms.end(), [&](const TimeInterval& alarm) {
+    return alarm.begin <= contact && alarm.end >= contact;
+  });
   for (size_t i = 0; i < kSessionLeads.size(); ++i) {
     if (on != alarms.end() && contact - on->begin >= sweep_guard_core::fromSeconds(kSessionLeads[i])) ++count.warned[i];
   }
@@ -45,21 +47,20 @@ void countContact(const ObjectSession& session, Time contact, const std::vector<
 }
 
 // The alarm comes from a sweep that began at the pose before it.
-Alarm judgedInterval(const RecordedMotion& motion, const Alarm& alarm) {
+TimeInterval judgedInterval(const RecordedMotion& motion, const TimeInterval& alarm) {
   const Time end = std::min(std::max(alarm.end, alarm.begin + kSessionWindow), motion.poses().back().stamp);
   const size_t pose = motion.newestAt(alarm.begin);
   return {motion.poses()[pose == 0 ? 0 : pose - 1].stamp, end};
 }
 
-bool isJustified(const std::vector<TouchInterval>& touches, const Alarm& judged) {
-  return std::any_of(touches.begin(), touches.end(), [&](const TouchInterval& touch) {
-    return touch.begin <= judged.end && touch.end >= judged.begin;
-  });
+bool isJustified(const std::vector<TimeInterval>& touches, const TimeInterval& judged) {
+  return std::any_of(touches.begin(), touches.end(),
+                     [&](const TimeInterval& touch) { return touch.begin <= judged.end && touch.end >= judged.begin; });
 }
 
-void countAlarm(const ObjectSession& session, const Alarm& alarm, SessionCount& count) {
+void countAlarm(const ObjectSession& session, const TimeInterval& alarm, SessionCount& count) {
   ++count.alarms;
-  const Alarm judged = judgedInterval(session.motion, alarm);
+  const TimeInterval judged = judgedInterval(session.motion, alarm);
   if (isJustified(session.touches, judged)) return;
   ++count.unjustified;
   count.unjustified_time += alarm.end - alarm.begin;
@@ -72,10 +73,10 @@ void countAlarm(const ObjectSession& session, const Alarm& alarm, SessionCount& 
 
 }  // namespace
 
-std::vector<TouchInterval> touchesOf(const RecordedMotion& motion, const ConvexShape& tool, ObstacleMesh& object) {
+std::vector<TimeInterval> touchesOf(const RecordedMotion& motion, const ConvexShape& tool, ObstacleMesh& object) {
   const Time last = motion.poses().back().stamp;
   const ClearanceAt clearance = object.clearance();
-  std::vector<TouchInterval> touches;
+  std::vector<TimeInterval> touches;
   Time from = motion.poses().front().stamp;
   while (const auto contact = firstContact(motion, tool, clearance, from, last)) {
     Time end = *contact;
@@ -113,11 +114,11 @@ SessionCount& SessionCount::operator+=(const SessionCount& other) {
 
 SessionCount countSession(const ObjectSession& session) {
   SessionCount count;
-  const std::vector<Alarm> alarms = session.levels.alarms(WarningLevel::kConsidered);
+  const std::vector<TimeInterval> alarms = session.levels.alarms(WarningLevel::kConsidered);
   for (size_t i = 0; i < session.touches.size(); ++i) {
     if (isContact(session, i)) countContact(session, session.touches[i].begin, alarms, count);
   }
-  for (const Alarm& alarm : alarms) {
+  for (const TimeInterval& alarm : alarms) {
     if (!session.motion.isContinuous(alarm.begin, alarm.begin + kSessionWindow)) continue;
     countAlarm(session, alarm, count);
   }

@@ -11,7 +11,7 @@
 
 namespace sweep_guard_evaluation {
 
-using sweep_guard_recording::Alarm;
+using sweep_guard_recording::TimeInterval;
 
 /// An alarm is right if a contact follows its begin within this time. Touches that follow each other within this time
 /// are one contact.
@@ -19,15 +19,10 @@ constexpr sweep_guard_core::Duration kSessionWindow = std::chrono::seconds(2);
 constexpr std::array<double, 4> kSessionLeads = {0.1, 0.3, 0.5, 1.0};          // [s]
 constexpr std::array<double, 3> kNearMisses = {0.010, 0.020, kExactDistance};  // [m]
 
-/// An interval in which the tool touches an object: `begin` is exact, `end` late by at most 5 ms.
-struct TouchInterval {
-  sweep_guard_core::Time begin;
-  sweep_guard_core::Time end;
-};
-
-/// Returns all touches of the recorded motion in the order of time.
-std::vector<TouchInterval> touchesOf(const RecordedMotion& motion, const sweep_guard_core::ConvexShape& tool,
-                                     ObstacleMesh& object);
+/// Returns the intervals of the recorded motion in which the tool touches an object, in the order of time: `begin` is exact,
+/// `end` late by at most 5 ms.
+std::vector<TimeInterval> touchesOf(const RecordedMotion& motion, const sweep_guard_core::ConvexShape& tool,
+                                    ObstacleMesh& object);
 
 /// Returns the smallest distance of tool and object [m] from one time to another, to 1 mm. Beyond kExactDistance,
 /// returns a lower bound that is no smaller.
@@ -56,7 +51,7 @@ struct ObjectSession {
   const RecordedMotion& motion;
   const sweep_guard_core::ConvexShape& tool;
   ObstacleMesh& object;
-  const std::vector<TouchInterval>& touches;
+  const std::vector<TimeInterval>& touches;
   const sweep_guard_recording::LevelTrace& levels;
   NearMisses near_misses = NearMisses::kCount;
 };

@@ -24,9 +24,9 @@ Eigen::Vector3d randomDirection(Random& random) {
 /// Returns where the tool was at a random time without a gap.
 Eigen::Vector3d randomPosition(const RecordedMotion& motion, Random& random) {
   Duration length{0};
-  for (const RecordedMotion::Segment& segment : motion.segments()) length += segment.end - segment.begin;
+  for (const auto& segment : motion.segments()) length += segment.end - segment.begin;
   Duration left = sweep_guard_core::fromSeconds(random.uniform(0.0, sweep_guard_core::toSeconds(length)));
-  for (const RecordedMotion::Segment& segment : motion.segments()) {
+  for (const auto& segment : motion.segments()) {
     if (left <= segment.end - segment.begin) return motion.at(segment.begin + left).translation();
     left -= segment.end - segment.begin;
   }

@@ -40,9 +40,9 @@ struct Interval {
   double upper;
 };
 
-/// Draws sessions anew: each session of each recording gets as many objects as it had, drawn with replacement from the
-/// objects of all sessions of the recording. Recordings with the same numbers of sessions and objects get the same draws, so
-/// that two runs can be compared in pairs.
+/// Resamples the sessions: each session of each recording gets as many objects as it had, drawn with replacement from
+/// the objects of all sessions of the recording. Recordings with the same numbers of sessions and objects get the same
+/// draws, so that two runs can be compared in pairs.
 /// @param draw  number of the draw
 std::vector<RecordingSessions> resampled(const std::vector<RecordingSessions>& recordings, size_t draw);
 

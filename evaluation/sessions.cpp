@@ -14,7 +14,7 @@ namespace {
 
 double minutesOf(const RecordedMotion& motion) {
   double seconds = 0.0;
-  for (const RecordedMotion::Segment& segment : motion.segments()) {
+  for (const auto& segment : motion.segments()) {
     seconds += sweep_guard_core::toSeconds(segment.end - segment.begin);
   }
   return seconds / 60.0;
@@ -70,7 +70,7 @@ std::vector<PredictionOutcome> Sessions::outcomes(sweep_guard_core::Duration int
   std::vector<PredictionOutcome> all;
   for (const Part& part : parts_) {
     for (size_t i = 0; i < part.objects.size(); ++i) {
-      const auto some = outcomesOf({motion_, part.findings, i, part.objects[i].touches}, interval);
+      const auto some = outcomesOf(motion_, part.findings, i, part.objects[i].touches, interval);
       all.insert(all.end(), some.begin(), some.end());
     }
   }

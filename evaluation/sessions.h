@@ -11,7 +11,7 @@
 
 namespace sweep_guard_evaluation {
 
-/// What a guard found in the sessions of one recording, and what happened. Alarms can be counted for any limits.
+/// Keeps the findings of a guard in the sessions of one recording, and the truth. Alarms can be counted for any limits.
 class Sessions {
  public:
   /// Places the objects.
@@ -39,7 +39,7 @@ class Sessions {
  private:
   struct Object {
     ObstacleMesh mesh;
-    std::vector<TouchInterval> touches;
+    std::vector<TimeInterval> touches;
     SessionCount count;
   };
   struct Part {

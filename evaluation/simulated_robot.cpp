@@ -4,20 +4,18 @@
 #include <cmath>
 #include <utility>
 
+#include "prediction/motion_space.h"
+
 namespace sweep_guard_evaluation {
 
+using sweep_guard_core::limited;
 using sweep_guard_core::toSeconds;
 using sweep_guard_core::Twist;
 
 namespace {
 
-Eigen::Vector3d shortened(const Eigen::Vector3d& vector, double length) {
-  const double norm = vector.norm();
-  return norm > length ? Eigen::Vector3d(length / norm * vector) : vector;
-}
-
 Eigen::Vector3d clipped(const Eigen::Vector3d& wanted, const Eigen::Vector3d& last, double fastest, double step) {
-  return shortened(last + shortened(shortened(wanted, fastest) - last, step), fastest);
+  return limited(last + limited(limited(wanted, fastest) - last, step), fastest);
 }
 
 double gainOf(const RobotDelays& delays) {
@@ -36,13 +34,13 @@ SimulatedRobot::SimulatedRobot(const Eigen::Isometry3d& X_WT, const RobotDelays&
     : p_WT_(X_WT.translation()),
       q_WT_(X_WT.linear()),
       gain_(gainOf(delays)),
-      on_the_way_W_(static_cast<size_t>(delays.dead_time / kStep)) {}
+      delayed_W_(static_cast<size_t>(delays.dead_time / kStep)) {}
 
 void SimulatedRobot::step() {
   Twist arriving_W = sent_W_;
-  if (!on_the_way_W_.empty()) {
-    std::swap(arriving_W, on_the_way_W_[oldest_]);
-    oldest_ = (oldest_ + 1) % on_the_way_W_.size();
+  if (!delayed_W_.empty()) {
+    std::swap(arriving_W, delayed_W_[oldest_]);
+    oldest_ = (oldest_ + 1) % delayed_W_.size();
   }
   velocity_W_.v_W += gain_ * (arriving_W.v_W - velocity_W_.v_W);
   velocity_W_.w_W += gain_ * (arriving_W.w_W - velocity_W_.w_W);

@@ -48,7 +48,7 @@ class SimulatedRobot {
   Eigen::Quaterniond q_WT_;
   double gain_;  // share of the difference that a step makes up for
   sweep_guard_core::Twist sent_W_;
-  std::vector<sweep_guard_core::Twist> on_the_way_W_;  // one for each step of the dead time
+  std::vector<sweep_guard_core::Twist> delayed_W_;  // one for each step of the dead time
   size_t oldest_ = 0;
   sweep_guard_core::Twist velocity_W_;
 };

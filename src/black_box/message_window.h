@@ -25,7 +25,7 @@ struct WindowMessage {
 /// each key: what a listener that had come earlier would know at the begin of the window. A key may have a second part
 /// behind a line feed, which says what it depends on: as "mesh" leaves the window, "mesh\nvertices" from before is forgotten.
 ///
-/// All that is kept takes at most `max_size` bytes: the oldest messages leave the window first, then the oldest that
+/// The kept messages take at most `max_size` bytes: the oldest messages leave the window first, then the oldest that
 /// are kept by their key. A message that is larger by itself is not kept. Not thread-safe.
 template <typename Content>
 class MessageWindow {
@@ -33,8 +33,8 @@ class MessageWindow {
   using Message = WindowMessage<Content>;
 
   static constexpr std::size_t kMaxKeys = 4096;  ///< names are made by others
-  /// Before the first message of a snapshot, those that are kept by their key have this time: a large mesh is converted
-  /// before vertices and poses follow.
+  /// Messages that are kept by their key are spread over this time before the first message of a snapshot, so that a
+  /// large mesh is converted before vertices and poses follow.
   static constexpr Duration kLead = std::chrono::seconds(1);
 
   struct Limits {
@@ -55,8 +55,8 @@ class MessageWindow {
     return true;
   }
 
-  /// Forgets all but the newest of each key: what follows belongs to another time.
-  void beginAnew() {
+  /// Forgets all but the newest of each key, because later messages belong to another time.
+  void startOver() {
     while (!window_.empty()) shift();
   }
 
@@ -87,7 +87,7 @@ class MessageWindow {
   }
   Time newest() const { return window_.empty() ? Time() : window_.back().received; }  ///< when it was received; or 0
 
-  /// Returns whether the clock has gone back since the newest message, by so much that beginAnew() is due.
+  /// Returns whether the clock has gone back since the newest message, so far that startOver() is due.
   bool hasGoneBack(Time now) const { return !window_.empty() && now < window_.back().received - kLead; }
 
   std::size_t size() const { return size_; }            ///< [bytes]

@@ -80,7 +80,8 @@ void RecordingFolder::open() {
   probe();
 }
 
-// The kernel gives the lock back when the process ends, however that happens. A folder that was replaced is locked anew.
+// The kernel gives the lock back when the process ends, however that happens. A folder that was replaced is locked
+// again.
 bool RecordingFolder::lock() {
   std::error_code error;
   const path locked = "/proc/self/fd/" + std::to_string(lock_);

@@ -15,7 +15,7 @@ namespace sweep_guard_core {
 std::uintmax_t freeSpace(const std::filesystem::path& folder);
 
 /// The folder of the recordings of one writer. Deletes only regular files in it that have the name of a recording. Not
-/// thread-safe. What fails throws DeviceError with the path and the reason; the recordings that are whole stay as they are.
+/// thread-safe. Failures throw DeviceError with the path and the reason; complete recordings stay as they are.
 class RecordingFolder {
  public:
   struct Options {
@@ -30,21 +30,21 @@ class RecordingFolder {
   RecordingFolder(const RecordingFolder&) = delete;
   RecordingFolder& operator=(const RecordingFolder&) = delete;
 
-  /// Makes the folder and locks it against other writers. Then, and not again while it is locked, deletes what a writer has
-  /// left that ended within a file. Checks that files can be written there. May be called again and again.
+  /// Makes the folder and locks it against other writers. When it has got the lock, it deletes what a writer left
+  /// that ended within a file. Checks that files can be written there. May be called repeatedly.
   void open();
 
-  /// Opens the folder, and checks that a recording of `size` bytes could be written: that it is within the quota, and that the
-  /// disk has room for it, that of the recordings included that would be deleted for the quota.
+  /// Opens the folder, and checks that a recording of `size` bytes could be written: it is within the quota, and the
+  /// disk has room for it once the recordings are deleted that exceed the quota.
   void check(std::uintmax_t size);
 
   struct Paths {
     std::filesystem::path bag;
     std::filesystem::path config;
   };
-  /// Writes a recording: checks the folder, deletes the oldest recordings for the quota, has both files written, and gives
-  /// them their names when they are whole and on the disk. Nothing remains of a recording that fails.
-  /// @param size   how large it is, about [bytes]
+  /// Writes a recording: checks the folder, deletes the oldest recordings for the quota, has both files written, and
+  /// renames them when they are complete and on the disk. Nothing remains of a recording that fails.
+  /// @param size   approximate [bytes]
   /// @param write  writes the two files, whose names end in .active
   /// @return the paths of the files
   Paths write(const std::string& name, std::uintmax_t size, const std::function<void(const Paths&)>& write);

@@ -71,25 +71,26 @@ class ImpactFinder::Search {
     return {0.0, point_M, normal, finder_.depthAtEnd(triangle_, normal)};
   }
 
-  std::optional<Impact> run(const std::optional<Eigen::Vector3d>& contact_normal_M) {
-    finder_.separating_M_.setZero();
+  Found run(const std::optional<Eigen::Vector3d>& contact_normal_M) {
+    Found found;
     for (std::size_t i = 0; i < count(); ++i) {
       const Trajectory trajectory = trajectoryOf(i);
       const std::optional<TimedTouch> touch = firstTouch(trajectory, finder_.sub_motions_[i].margin);
       if (!touch) {
-        finder_.separating_M_ = trajectory.inMesh(*direction_, 0.0);
+        found.separating_M = trajectory.inMesh(*direction_, 0.0);
         continue;
       }
       const Eigen::Vector3d point_M = trajectory.base_M() + touch->separation.on_obstacle;
       const bool overlaps = i == 0 && touch->fraction == 0.0 && touch->separation.gap <= 0.0;
-      if (overlaps) return overlapAt(point_M, contact_normal_M);
+      if (overlaps) return {overlapAt(point_M, contact_normal_M)};
       const double time = (static_cast<double>(i) + touch->fraction) / static_cast<double>(count());
       const Eigen::Vector3d& normal = touch->separation.normal;
       const Eigen::Vector3d normal_T = trajectory.tool(touch->fraction).R_MT.transpose() * normal;
-      finder_.separating_M_ = finder_.sub_motions_[0].R_MT_start * normal_T;
-      return Impact{time, point_M, normal, finder_.depthAtEnd(triangle_, normal)};
+      found.separating_M = finder_.sub_motions_[0].R_MT_start * normal_T;
+      found.impact = Impact{time, point_M, normal, finder_.depthAtEnd(triangle_, normal)};
+      return found;
     }
-    return std::nullopt;
+    return found;
   }
 
  private:
@@ -231,7 +232,6 @@ void ImpactFinder::begin(const ConvexShape& shape_T, const std::vector<Motion>& 
   assert(!sub_motions.empty());
   assert(margin >= 0.0);
   shape_T_ = &shape_T;
-  separating_M_.setZero();
   normals_M_.clear();
   depth_normal_M_.setZero();
   sub_motions_.clear();
@@ -290,9 +290,9 @@ std::optional<Impact> ImpactFinder::overlapAtStart(const MovingTriangle& triangl
   return std::nullopt;
 }
 
-std::optional<Impact> ImpactFinder::find(const MovingTriangle& triangle,
-                                         const std::optional<Eigen::Vector3d>& contact_normal_M,
-                                         const Eigen::Vector3d& guess_M) {
+ImpactFinder::Found ImpactFinder::find(const MovingTriangle& triangle,
+                                       const std::optional<Eigen::Vector3d>& contact_normal_M,
+                                       const Eigen::Vector3d& guess_M) {
   return Search(*this, triangle, guess_M).run(contact_normal_M);
 }
 
@@ -302,7 +302,7 @@ std::optional<Impact> timeOfImpact(const ConvexShape& shape_T, const std::vector
   ImpactFinder finder;
   finder.begin(shape_T, sub_motions, margin);
   const std::optional<Impact> overlap = finder.overlapAtStart(triangle, contact_normal_M);
-  return overlap ? overlap : finder.find(triangle, contact_normal_M);
+  return overlap ? overlap : finder.find(triangle, contact_normal_M).impact;
 }
 
 }  // namespace sweep_guard_core

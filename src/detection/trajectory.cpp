@@ -16,9 +16,9 @@ double lowerBound(double start, double end, double curvature) {
   return start - (curvature - rise) * (curvature - rise) / (4.0 * curvature);
 }
 
-// Returns the share of the way that uses up a gap at this rate, if it is known and high enough.
-double shareOf(double way, double gap, double rate, double otherwise) {
-  return rate * way > gap ? std::clamp(gap / (rate * way), 1e-5, 0.99) : otherwise;
+// Returns the share of the remaining motion that uses up a gap at this rate, if it is known and high enough.
+double shareOf(double rest, double gap, double rate, double otherwise) {
+  return rate * rest > gap ? std::clamp(gap / (rate * rest), 1e-5, 0.99) : otherwise;
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 namespace sweep_guard_core {
 
-/// One side of a triangle, as a way along an edge.
+/// One side of a triangle, in the direction in which the triangle passes the edge.
 struct HalfEdge {
   std::uint32_t high;  ///< the vertex of the edge with the higher index
   std::uint32_t use;   ///< twice the triangle; plus 1 if it passes the edge towards the higher vertex

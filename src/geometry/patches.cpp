@@ -16,7 +16,7 @@ Patches::Patches(const EdgeGroups& edges, const std::vector<bool>& left_out)
   }
 }
 
-// Leaves every triangle on the way as a child of the root. A parent comes before its children.
+// Leaves every triangle on the path as a child of the root. A parent comes before its children.
 std::uint32_t Patches::root(std::uint32_t triangle) {
   std::uint32_t above = parents_[triangle];
   if (above >> 1U == triangle || parents_[above >> 1U] >> 1U == above >> 1U) return above >> 1U;

@@ -1,15 +1,17 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "geometry/edge_groups.h"
 
 namespace sweep_guard_core {
 
-/// Sorts triangles into patches: two belong to one patch if they are alone at an edge, or by way of others. The triangles of a patch
-/// are turned into one direction, that of its first triangle. A patch that cannot be, as a Moebius strip, has borders
-/// where directions clash.
+/// Sorts triangles into patches: two belong to one patch if no third one shares their edge, or through a chain of such
+/// neighbors. The triangles of a patch are turned into one direction, that of its first triangle. A patch that cannot
+/// be, as a Moebius strip, has borders where directions clash.
 class Patches {
  public:
   /// @param edges  of triangles that are not left out; must live as long as this
@@ -34,5 +36,21 @@ class Patches {
   std::vector<EdgeGroups::Group> irregular_;
   std::uint32_t count_ = 0;
 };
+
+/// Calls a function with each patch (or part) at an edge, the number of its triangles that pass the edge upwards less those
+/// that pass it downwards, and the number of all.
+template <typename Sorted, typename Function>
+void forEachPatchAt(const EdgeGroups::Group& group, const Sorted& patches, const Function& function) {
+  std::vector<std::pair<std::uint32_t, int>> uses;
+  for (const HalfEdge& edge : group) uses.emplace_back(patches.of(edge.triangle()), patches.direction(edge));
+  std::sort(uses.begin(), uses.end());
+  for (auto first = uses.begin(); first != uses.end();) {
+    int sum = 0;
+    auto next = first;
+    for (; next != uses.end() && next->first == first->first; ++next) sum += next->second;
+    function(first->first, sum, next - first);
+    first = next;
+  }
+}
 
 }  // namespace sweep_guard_core

@@ -11,11 +11,11 @@ constexpr int kSphereSectors = 16;
 
 }  // namespace
 
-ShapeSurface cylinderSurface(double radius, double length, int sides) {
+TriangleSurface cylinderSurface(double radius, double length, int sides) {
   const auto n = static_cast<std::uint32_t>(sides);
   const std::uint32_t front_center = 2 * n;
   const std::uint32_t rear_center = 2 * n + 1;
-  ShapeSurface surface;
+  TriangleSurface surface;
   for (const double z : {0.0, -length}) {
     for (std::uint32_t i = 0; i < n; ++i) {
       const double angle = kTwoPi * i / n;
@@ -34,11 +34,11 @@ ShapeSurface cylinderSurface(double radius, double length, int sides) {
   return surface;
 }
 
-ShapeSurface sphereSurface(double radius) {
+TriangleSurface sphereSurface(double radius) {
   const auto at = [](int ring, int sector) {
     return static_cast<std::uint32_t>(ring * kSphereSectors + sector % kSphereSectors);
   };
-  ShapeSurface surface;
+  TriangleSurface surface;
   for (int ring = 0; ring <= kSphereRings; ++ring) {
     const double polar = 0.5 * kTwoPi * ring / kSphereRings;
     for (int sector = 0; sector < kSphereSectors; ++sector) {
@@ -65,7 +65,7 @@ std::array<Eigen::Vector3d, 8> boxCorners(const Eigen::Vector3d& h) {
   return corners;
 }
 
-ShapeSurface boxSurface(const Eigen::Vector3d& half_extents) {
+TriangleSurface boxSurface(const Eigen::Vector3d& half_extents) {
   const auto corners = boxCorners(half_extents);
   return {{corners.begin(), corners.end()},
           {{0, 2, 1},

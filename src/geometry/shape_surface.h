@@ -8,18 +8,14 @@
 
 namespace sweep_guard_core {
 
-/// The surface of a body in its own frame [m].
-struct ShapeSurface {
-  std::vector<Eigen::Vector3d> vertices;
-  std::vector<Triangle> triangles;
-};
+// Surfaces of bodies, each in its own frame [m].
 
 /// Returns a prism inside a cylinder around the z axis, with z in [-length, 0].
 /// @param sides  >= 3
-ShapeSurface cylinderSurface(double radius, double length, int sides);
+TriangleSurface cylinderSurface(double radius, double length, int sides);
 /// Returns a polyhedron inside a sphere around the origin.
-ShapeSurface sphereSurface(double radius);
-ShapeSurface boxSurface(const Eigen::Vector3d& half_extents);
+TriangleSurface sphereSurface(double radius);
+TriangleSurface boxSurface(const Eigen::Vector3d& half_extents);
 
 /// Returns the corners of a box around the origin: corner i is on the positive side of axis k if bit k of i is set.
 std::array<Eigen::Vector3d, 8> boxCorners(const Eigen::Vector3d& half_extents);

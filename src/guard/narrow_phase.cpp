@@ -91,8 +91,8 @@ class NarrowPhase::Piece {
 
   void search(Candidate& candidate, const Eigen::Vector3d& guess_M) {
     beat();
-    candidate.impact = finder_.find(candidate.triangle_M, candidate.contact_normal_M, guess_M);
-    const Eigen::Vector3d& direction_M = finder_.separatingDirection_M();
+    const auto [impact, direction_M] = finder_.find(candidate.triangle_M, candidate.contact_normal_M, guess_M);
+    candidate.impact = impact;
     candidate.not_ruled_out =
         candidate.impact || (request_.mesh.moved() && hullsMeet(candidate.triangle_M, direction_M));
     const bool is_new = !candidate.not_ruled_out || direction_M.dot(guess_M) < kSameNormal;

@@ -4,7 +4,7 @@
 
 namespace sweep_guard_core {
 
-double FrameDrift::way(double radius) const {
+double FrameDrift::displacement(double radius) const {
   return toSeconds(age) * (velocity_W.head<3>().norm() + radius * velocity_W.tail<3>().norm());
 }
 

@@ -44,8 +44,8 @@ void requireUsable(const ForceOptions& options) {
 
 }  // namespace
 
-ForcePermission decideForce(const ForceEvidence& evidence, const Instant& now, const ForceLimits& limits) {
-  const PermissionInputs& inputs = evidence.guard;
+ForcePermission decideForce(const PermissionInputs& inputs, const std::optional<Timestamps>& device, const Instant& now,
+                            const ForceLimits& limits) {
   if (!inputs.warning) return {0.0, PermissionCause::kNoWarning};
   if (now.steady - inputs.warning->received > limits.warning_silence) return {0.0, PermissionCause::kWarningSilent};
   if (inputs.warning->level == WarningLevel::kUnknown) return {0.0, PermissionCause::kUnknown};
@@ -63,7 +63,7 @@ ForcePermission decideForce(const ForceEvidence& evidence, const Instant& now, c
   };
   fadeWith(*inputs.pose, PermissionCause::kPoseSilent);
   fadeWith(inputs.planes->timestamps, PermissionCause::kPlanesSilent);
-  if (evidence.device) fadeWith(*evidence.device, PermissionCause::kDeviceSilent);
+  if (device) fadeWith(*device, PermissionCause::kDeviceSilent);
   return permission;
 }
 
@@ -81,7 +81,7 @@ RenderedForce ForceRenderer::render(const ForceInputs& inputs, const DeviceWrenc
   const double period = toSeconds(rendered_ ? std::min(now.steady - *rendered_, 2 * options_.period) : options_.period);
   rendered_ = now.steady;
   RenderedForce rendered;
-  rendered.permission = decideForce({permissionInputs(inputs.known), inputs.device}, now, options_.limits);
+  rendered.permission = decideForce(permissionInputs(inputs.known), inputs.device, now, options_.limits);
   const DeviceWrench before = faded_ ? unfaded_ : sent;
   if (inputs.known.pose) {
     measureVelocity(*inputs.known.pose);
@@ -106,7 +106,7 @@ RenderedForce ForceRenderer::render(const ForceInputs& inputs, const DeviceWrenc
 }
 
 void ForceRenderer::measureVelocity(const MotionInputs::ToolPose& pose) {
-  const Sample sample{pose.X_WT, pose.timestamps.stamp};
+  const StampedPose sample{pose.timestamps.stamp, pose.X_WT};
   const double interval = newest_ ? toSeconds(sample.stamp - newest_->stamp) : -1.0;
   if (interval == 0.0) return;
   if (interval < 0.0 || interval > kMaxPause) {

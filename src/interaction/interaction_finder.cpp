@@ -72,22 +72,23 @@ Eigen::Vector3d InteractionFinder::ToolMotion::velocity_B(size_t body, const Eig
   return X_MB.linear().transpose() * (X_MB * p_B - before_.X_MB[body] * p_B) / seconds;
 }
 
-void InteractionFinder::find(const InteractionRequest& request, Interaction& interaction) {
-  assert(request.pose.bodies.empty() ? bodies_.size() == 1 : bodies_.size() == request.pose.bodies.size());
+void InteractionFinder::find(const PoseWithFrames& pose, const Workpieces& workpieces,
+                             const InteractionOptions& options, Interaction& interaction) {
+  assert(pose.bodies.empty() ? bodies_.size() == 1 : bodies_.size() == pose.bodies.size());
   interaction.objects.clear();
   interaction.unplaced.clear();
   interaction.total = Wrench();
-  forgetRemoved(request.workpieces);
-  for (const auto& workpiece : request.workpieces) {
-    const auto X_WM = request.pose.X_WM.find(workpiece->frame);
-    if (X_WM == request.pose.X_WM.end()) {
+  forgetRemoved(workpieces);
+  for (const auto& workpiece : workpieces) {
+    const auto X_WM = pose.X_WM.find(workpiece->frame);
+    if (X_WM == pose.X_WM.end()) {
       motions_.erase(workpiece->id);
       interaction.unplaced.push_back(workpiece);
       continue;
     }
     ToolMotion& motion = motions_[workpiece->id];
-    motion.moveTo(request.pose, workpiece->frame, X_WM->second, bodies_.size());
-    const ObjectInteraction found = interact(workpiece, request.pose, motion, request.options);
+    motion.moveTo(pose, workpiece->frame, X_WM->second, bodies_.size());
+    const ObjectInteraction found = interact(workpiece, pose, motion, options);
     if (found.volume == 0.0 && found.area_T.isZero(0.0)) continue;
     interaction.total += found.wrench;
     interaction.objects.push_back(found);

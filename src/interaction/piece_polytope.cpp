@@ -84,13 +84,13 @@ HalfSpaces facesOf(const ConvexHull& hull, double padding) {
   return faces;
 }
 
-double ballEnlargement(const ShapeSurface& ball) {
+double ballEnlargement(const TriangleSurface& ball) {
   return std::cbrt(4.0 / 3.0 * kPi / volume(convexHull(ball.vertices)));
 }
 
 // Without corners that enclose a volume, what is there is mostly padding.
 HalfSpaces roundFaces(const ConvexShape& shape_T) {
-  const ShapeSurface ball = sphereSurface(1.0);
+  const TriangleSurface ball = sphereSurface(1.0);
   const double padding = shape_T.padding() * ballEnlargement(ball);
   std::vector<Eigen::Vector3d> points;
   for (const Eigen::Vector3d& direction : ball.vertices) {

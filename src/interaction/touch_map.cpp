@@ -47,7 +47,7 @@ void TouchMap::add(const SweepReport& report, const Workpieces& workpieces) {
 }
 
 void TouchMap::clear() {
-  for (auto& [id, touched] : touched_) beginAnew(touched);
+  for (auto& [id, touched] : touched_) restart(touched);
   newest_ = Time();
   ++changes_;
 }
@@ -82,7 +82,7 @@ void TouchMap::forgetRemoved(const Workpieces& workpieces) {
 TouchMap::Touched& TouchMap::touchedOf(const std::shared_ptr<const Workpiece>& workpiece) {
   Touched& touched = touched_[workpiece->id];
   if (!touched.workpiece || !isOfTheSameTriangles(*touched.workpiece, *workpiece)) {
-    beginAnew(touched);
+    restart(touched);
     touched.workpiece.reset();
     touched.of_triangle.resize(workpiece->mesh_M.triangles().size());
     touched.triangles.reserve(touched.of_triangle.size());
@@ -91,7 +91,7 @@ TouchMap::Touched& TouchMap::touchedOf(const std::shared_ptr<const Workpiece>& w
   return touched;
 }
 
-void TouchMap::beginAnew(Touched& touched) {
+void TouchMap::restart(Touched& touched) {
   if (touched.empty()) return;
   for (const std::uint32_t triangle : touched.triangles) touched.of_triangle[triangle] = {};
   touched.triangles.clear();

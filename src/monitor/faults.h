@@ -41,11 +41,11 @@ class Faults {
   std::map<Reason, std::string> lasting_;
 };
 
-/// Keeps the workpieces of which a message of one kind was refused, until a good one comes.
+/// Keeps the ids of workpieces whose messages of one kind were refused, until a valid one comes.
 class Refusals {
  public:
-  /// Keeps the refusals of 1024 ids: more than there may be workpieces. Of any more only the newest message is kept, and
-  /// nothing ends it, because nobody knows any more which of them came well.
+  /// Keeps the refusals of 1024 ids: more than there may be workpieces. Beyond these, only the newest message is kept,
+  /// and nothing ends it, because it is no longer known which of these ids a valid message came for.
   void add(const std::string& id, const WarningInputs::Event& refusal);
   /// Ends the refusals of this id that were received no later.
   void accept(const std::string& id, SteadyTime received);

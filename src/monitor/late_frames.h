@@ -17,7 +17,7 @@ class LateFrames {
   /// @param inputs  must outlive this
   explicit LateFrames(WarningInputs& inputs) : inputs_(inputs) {}
 
-  /// Adds the newest transform of a frame. One that is older begins anew: time went back.
+  /// Adds the newest transform of a frame. An older one restarts the measurement: time went back.
   /// @param stamp         of the transform
   /// @param pose_timeout  as lateAge()
   void add(const std::string& name, Time stamp, const Instant& now, Duration pose_timeout);

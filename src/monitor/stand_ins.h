@@ -10,8 +10,9 @@
 
 namespace sweep_guard_core {
 
-/// Knows which triangles were replaced by others a moment ago: what was tested with them counts for those until these are tested,
-/// so that a mesh whose triangles change with each message is not unknown each time. Keeps no triangles in memory.
+/// Remembers which triangles were replaced a moment ago. Until the new ones are tested, tests of the old ones count for
+/// them, so that a mesh whose triangles change with each message is not unknown each time. Keeps no triangles in
+/// memory.
 class StandIns {
  public:
   /// How long triangles stand in for those that replaced them.

@@ -50,8 +50,9 @@ const Workpiece* findWorkpiece(const Workpieces& workpieces, const std::string& 
 /// Returns whether the workpiece is among these, with its triangles and frame.
 bool holds(const Workpieces& workpieces, const Workpiece& workpiece);
 
-/// Takes over what a sweep met other than intended: of several workpieces, the first reported, and those replaced only if there
-/// is no other. Without a contact the one before is over, unless its workpiece could not be swept.
+/// Updates the contact from a sweep. What is met as intended does not count. Of several workpieces, the first reported
+/// counts, and a replaced one only if there is no other. Without a contact the one before is over, unless its workpiece
+/// could not be swept.
 /// @returns whether the sweep met one
 bool updateContact(const SweepReport& report, SteadyTime now, std::optional<WarningInputs::Contact>& contact);
 

@@ -25,7 +25,7 @@ struct HeardWarning {
   Instant received;
 };
 
-/// What several guards say together.
+/// The merged warning of several guards.
 struct MergedWarning {
   WarningLevel level = WarningLevel::kUnknown;
   std::uint32_t reasons = 0;  ///< those of all guards; kNotCovered for one that is silent

@@ -17,7 +17,7 @@ constexpr double kLongest = 1.0;  // [s]; a surface that was not heard of for lo
 double driftOf(const Workpiece& workpiece, const PoseWithFrames& pose) {
   const auto drift = pose.drifts.find(workpiece.frame);
   const TriangleMesh& mesh_M = workpiece.mesh_M;
-  return drift == pose.drifts.end() ? 0.0 : drift->second.way(mesh_M.origin().norm() + mesh_M.radius());
+  return drift == pose.drifts.end() ? 0.0 : drift->second.displacement(mesh_M.origin().norm() + mesh_M.radius());
 }
 
 double ageOf(const Workpiece& workpiece, const PoseWithFrames& pose) {
@@ -26,7 +26,7 @@ double ageOf(const Workpiece& workpiece, const PoseWithFrames& pose) {
   return age > kLongest ? 0.0 : std::max(0.0, age);
 }
 
-// A frame that is followed has a velocity of its own; one that was placed anew has not moved.
+// A frame that is followed has a velocity of its own; one whose static transform was replaced has not moved.
 void updateMotion(const PoseWithFrames& pose, const std::shared_ptr<const Workpiece>& workpiece,
                   const Eigen::Isometry3d& X_WM, SurfaceMotion& motion) {
   const auto drift = pose.drifts.find(workpiece->frame);
@@ -145,10 +145,11 @@ void Facings::face(const ProximityRequest& request, const PlacedSurface& surface
   }
 }
 
-double Facings::longestWay() const {
-  double way = 0.0;
-  for (size_t i = 0; i < surface_count_; ++i) way = std::max(way, surfaces_[i].age * fastest(surfaces_[i]));
-  return way;
+double Facings::maxDisplacement() const {
+  double displacement = 0.0;
+  for (size_t i = 0; i < surface_count_; ++i)
+    displacement = std::max(displacement, surfaces_[i].age * fastest(surfaces_[i]));
+  return displacement;
 }
 
 double Facings::fastest(const PlacedSurface& surface) {

@@ -74,7 +74,7 @@ class Facings {
 
   double rounding() const { return rounding_; }  ///< the largest of the meshes [m]
   double fastest() const;                        ///< bound on the speed of any vertex [m/s]
-  double longestWay() const;                     ///< bound on the way of any vertex since its deformation [m]
+  double maxDisplacement() const;                ///< bound on the displacement of any vertex since its deformation [m]
 
  private:
   static double fastest(const PlacedSurface& surface);

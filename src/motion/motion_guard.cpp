@@ -81,8 +81,8 @@ void MotionGuard::limit(const MotionInputs& inputs, const MotionCommand& command
   UncoveredSurfaces uncovered = inputs.planes->uncovered;
   // Planes are carried by the newest pose. A distance as a whole cannot be: any point may have come nearer.
   const double radius = radiusAbout(Eigen::Vector3d::Zero(), *inputs.tool);
-  uncovered.distance -= std::max(farthestWay(inputs.planes->X_WT, inputs.pose->X_WT, radius),
-                                 farthestWay(inputs.planes->X_WT, expected_WT, radius));
+  uncovered.distance -= std::max(largestDisplacement(inputs.planes->X_WT, inputs.pose->X_WT, radius),
+                                 largestDisplacement(inputs.planes->X_WT, expected_WT, radius));
 
   motion.twist_W = motion.decision.permission == Permission::kLimited
                        ? limiter_.limit(command.twist_W, facing_, uncovered, limits)

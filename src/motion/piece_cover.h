@@ -42,7 +42,7 @@ class PieceCover {
   size_t planes() const { return planes_.size(); }
 
   /// Returns the number of a plane that the box or triangle lies wholly behind; empty: none.
-  /// @param begin  so many planes are left out
+  /// @param begin  number of planes, from the first, that are left out
   std::optional<size_t> behind(const CenteredBox& box) const;
   std::optional<size_t> behind(const Corners& corners, size_t begin) const;
 

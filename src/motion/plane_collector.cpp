@@ -14,24 +14,19 @@ constexpr double kSameNormal = 0.9;    // cosine of the angle between normals in
 
 }  // namespace
 
-void PlaneCollector::begin(const Eigen::Isometry3d& X_WT, std::vector<ProximityPlane>& planes) {
-  X_WT_ = X_WT;
-  planes_ = &planes;
-}
-
 void PlaneCollector::add(Facing& facing, const SeparatedTriangle& separated) {
   const TriangleMesh& mesh_M = facing.mesh();
   const double slack = separated.gap > 0.0 ? std::max(kSlack * separated.gap, kMinSlack * mesh_M.radius()) : 0.0;
   const double step = slack + mesh_M.rounding();
   const Eigen::Vector3d point_T = separated.top_T + step * separated.normal_T;
-  const size_t number = planes_->size();
+  const size_t number = planes_.size();
   if (separated.gap > 0.0) facing.cover.add(separated.normal_T, separated.normal_T.dot(point_T), number);
   const double drift = facing.surface->drift;
-  planes_->push_back({{facing.piece, X_WT_.linear() * separated.normal_T,
-                       X_WT_ * (point_T + drift * separated.normal_T), separated.gap - step - drift, -kInfinity},
-                      facing.surface->workpiece,
-                      separated.triangle,
-                      separated.gap <= 0.0});
+  planes_.push_back({{facing.piece, X_WT_.linear() * separated.normal_T, X_WT_ * (point_T + drift * separated.normal_T),
+                      separated.gap - step - drift, -kInfinity},
+                     facing.surface->workpiece,
+                     separated.triangle,
+                     separated.gap <= 0.0});
   quicken(number, facing, mesh_M.triangles()[separated.triangle]);
 }
 
@@ -44,7 +39,7 @@ bool PlaneCollector::join(const Facing& facing, const SeparatedTriangle& separat
   const double step =
       std::max(0.0, plane.normal_W.dot(top_W - plane.point_W) + facing.mesh().rounding() + facing.surface->drift);
   moveOn(plane, step);
-  quicken(static_cast<size_t>(best - planes_->data()), facing, facing.mesh().triangles()[separated.triangle]);
+  quicken(static_cast<size_t>(best - planes_.data()), facing, facing.mesh().triangles()[separated.triangle]);
   return true;
 }
 
@@ -52,7 +47,7 @@ ProximityPlane* PlaneCollector::similar(const Facing& facing, const Eigen::Vecto
   const Eigen::Vector3d n_W = X_WT_.linear() * normal_T;
   ProximityPlane* best = nullptr;
   double cosine = kSameNormal;
-  for (ProximityPlane& each : *planes_) {
+  for (ProximityPlane& each : planes_) {
     const bool of_facing = each.workpiece == facing.surface->workpiece && each.plane.piece == facing.piece;
     if (!of_facing || !each.contact || !(each.plane.normal_W.dot(n_W) >= cosine)) continue;
     cosine = each.plane.normal_W.dot(n_W);

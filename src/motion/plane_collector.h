@@ -7,13 +7,13 @@
 
 namespace sweep_guard_core {
 
-/// Adds planes to a Proximity, and counts what stands behind each: the speed of its surface, its way since it was last
-/// heard of, and in contact its depth.
+/// Adds planes to a Proximity, and counts what stands behind each: the speed of its surface, its displacement since its
+/// last update, and in contact its depth.
 class PlaneCollector {
  public:
-  /// @param planes  stays the caller's, and is added to
-  void begin(const Eigen::Isometry3d& X_WT, std::vector<ProximityPlane>& planes);
-  bool full() const { return planes_->size() == ProximityFinder::kMaxPlanes; }
+  /// @param X_WT, planes  must outlive the collector; `planes` is added to
+  PlaneCollector(const Eigen::Isometry3d& X_WT, std::vector<ProximityPlane>& planes) : X_WT_(X_WT), planes_(planes) {}
+  bool full() const { return planes_.size() == ProximityFinder::kMaxPlanes; }
 
   /// Adds the plane of a triangle. The facing's cover knows it from now on, unless the piece reaches through it: such a
   /// plane separates the piece from nothing, and triangles join it one by one.
@@ -24,7 +24,7 @@ class PlaneCollector {
   /// Counts the speed of a part that the plane stands for, as SurfaceMotion::alongNormal() takes it.
   template <typename... Part>
   void quicken(size_t number, const Facing& facing, const Part&... part) {
-    SeparatingPlane& plane = (*planes_)[number].plane;
+    SeparatingPlane& plane = planes_[number].plane;
     const SurfaceMotion& motion = *facing.surface->motion;
     const Eigen::Vector3d n_M = facing.cover.normal_M(normal_T(plane));
     const double before = plane.surface_speed;
@@ -40,8 +40,8 @@ class PlaneCollector {
   }
   ProximityPlane* similar(const Facing& facing, const Eigen::Vector3d& normal_T) const;
 
-  Eigen::Isometry3d X_WT_ = Eigen::Isometry3d::Identity();
-  std::vector<ProximityPlane>* planes_ = nullptr;
+  const Eigen::Isometry3d& X_WT_;
+  std::vector<ProximityPlane>& planes_;
 };
 
 }  // namespace sweep_guard_core

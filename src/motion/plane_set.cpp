@@ -34,7 +34,7 @@ bool belongsTo(const PlaneSet& planes, const ToolBalls& tool) {
                      [&](const SeparatingPlane& plane) { return plane.piece < tool.pieces.size(); });
 }
 
-double farthestWay(const Eigen::Isometry3d& from_WT, const Eigen::Isometry3d& to_WT, double radius) {
+double largestDisplacement(const Eigen::Isometry3d& from_WT, const Eigen::Isometry3d& to_WT, double radius) {
   const double angle = Eigen::AngleAxisd(from_WT.linear().transpose() * to_WT.linear()).angle();
   return (from_WT.translation() - to_WT.translation()).norm() + radius * angle;
 }
@@ -43,7 +43,7 @@ bool passesASurface(const PlaneSet& planes, const ToolBalls& tool, const Eigen::
                     const Eigen::Isometry3d& to_WT) {
   const double radius = radiusAbout(Eigen::Vector3d::Zero(), tool);
   const auto reaches = [&](const Eigen::Isometry3d& X_WT) {
-    return farthestWay(planes.X_WT, X_WT, radius) > planes.uncovered.distance + kBeyond;
+    return largestDisplacement(planes.X_WT, X_WT, radius) > planes.uncovered.distance + kBeyond;
   };
   if (reaches(to_WT) && !reaches(from_WT)) return true;
   return std::any_of(planes.planes.begin(), planes.planes.end(), [&](const SeparatingPlane& plane) {

@@ -8,7 +8,7 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kFollows = 0.1;  // share of its way that a tool which follows has moved at least
+constexpr double kFollows = 0.1;  // least share of its lag that a tool which follows has moved
 constexpr double kSamplesAWindow = 16.0;
 constexpr Duration kSpeedWindow = std::chrono::milliseconds(20);  // that a speed is measured over
 
@@ -80,11 +80,11 @@ bool PoseLeash::hasStood(const Eigen::Isometry3d& sent_WT) const {
 }
 
 Eigen::Isometry3d PoseLeash::within(const Eigen::Isometry3d& pose_WT) const {
-  Eigen::Vector3d way_W = pose_WT.translation() - seen_.X_WT.translation();
+  Eigen::Vector3d offset_W = pose_WT.translation() - seen_.X_WT.translation();
   Eigen::Vector3d turn_W = rotationVector(pose_WT.linear() * seen_.X_WT.linear().transpose());
   const double seconds = reach();
   Eigen::Isometry3d within_WT = pose_WT;
-  if (shorten(way_W, seconds * options_.max_speed)) within_WT.translation() = seen_.X_WT.translation() + way_W;
+  if (shorten(offset_W, seconds * options_.max_speed)) within_WT.translation() = seen_.X_WT.translation() + offset_W;
   if (shorten(turn_W, seconds * options_.max_turn_rate)) within_WT.linear() = turnedBy(seen_.X_WT.linear(), turn_W);
   return within_WT;
 }
@@ -92,13 +92,13 @@ Eigen::Isometry3d PoseLeash::within(const Eigen::Isometry3d& pose_WT) const {
 Eigen::Isometry3d PoseLeash::rest(const Eigen::Isometry3d& sent_WT) const {
   const double speed = approach(sent_WT);
   const double braking = 0.5 * speed * speed * options_.max_speed / options_.deceleration;
-  const double way = speed * toSeconds(seen_.age + options_.dead_time) + braking;
+  const double stopping = speed * toSeconds(seen_.age + options_.dead_time) + braking;
   const double lead = between(seen_.X_WT, sent_WT);
-  if (lead <= way) return sent_WT;
+  if (lead <= stopping) return sent_WT;
   const Eigen::Vector3d turn_W = rotationVector(sent_WT.linear() * seen_.X_WT.linear().transpose());
   Eigen::Isometry3d rest_WT = seen_.X_WT;
-  rest_WT.translation() += way / lead * (sent_WT.translation() - seen_.X_WT.translation());
-  rest_WT.linear() = turnedBy(seen_.X_WT.linear(), way / lead * turn_W);
+  rest_WT.translation() += stopping / lead * (sent_WT.translation() - seen_.X_WT.translation());
+  rest_WT.linear() = turnedBy(seen_.X_WT.linear(), stopping / lead * turn_W);
   return rest_WT;
 }
 

@@ -14,12 +14,8 @@ constexpr double kNearer = 1e-3;  // share by which a triangle may be nearer tha
 
 }  // namespace
 
-class ProximityFinder::Search {
- public:
-  void find(const ProximityRequest& request, Proximity& proximity);
-  void reset() { facings_.reset(); }
-
- private:
+// What waits for its turn while a search runs, and how the surfaces move. Only the latter is kept for the next search.
+struct ProximityFinder::Memory {
   enum class Kind : std::uint8_t { kMesh, kGroup, kCluster, kTriangle, kSeparated };
 
   // A part of a mesh before a piece. Of all that wait, the one that may be nearest is next.
@@ -35,7 +31,21 @@ class ProximityFinder::Search {
     }
   };
 
-  void begin(const ProximityRequest& request, Proximity& proximity);
+  Facings facings;
+  std::vector<WaitingPart> waiting;  // a heap
+  std::vector<SeparatedTriangle> separated;
+};
+
+// One search.
+class ProximityFinder::Search {
+ public:
+  Search(const ProximityRequest& request, Memory& memory, Proximity& proximity);
+  void run();
+
+ private:
+  using Kind = Memory::Kind;
+  using WaitingPart = Memory::WaitingPart;
+
   void pushIntended(std::uint32_t index);
 
   void push(const WaitingPart& waiting);
@@ -55,40 +65,41 @@ class ProximityFinder::Search {
   bool standFor(const WaitingPart& waiting, const SeparatedTriangle& separated);
   bool leaveOver(double distance);
 
-  Facings facings_;
+  const ProximityRequest& request_;
+  Proximity& found_;
+  Facings& facings_;
+  std::vector<WaitingPart>& waiting_;
+  std::vector<SeparatedTriangle>& separated_;
   PlaneCollector planes_;
-  // Of the running call:
-  const ProximityRequest* request_ = nullptr;
-  Proximity* found_ = nullptr;
-  std::vector<WaitingPart> waiting_;
-  std::vector<SeparatedTriangle> separated_;
 };
 
-void ProximityFinder::Search::find(const ProximityRequest& request, Proximity& proximity) {
-  begin(request, proximity);
-  while (!waiting_.empty() && process(pop())) {
-  }
-  std::sort(proximity.planes.begin(), proximity.planes.end(),
-            [](const auto& a, const auto& b) { return a.plane.gap < b.plane.gap; });
-  facings_.end();
-}
-
-void ProximityFinder::Search::begin(const ProximityRequest& request, Proximity& proximity) {
-  request_ = &request;
-  found_ = &proximity;
-  proximity.planes.clear();
-  proximity.unplaced.clear();
-  proximity.uncovered = {};
+ProximityFinder::Search::Search(const ProximityRequest& request, Memory& memory, Proximity& proximity)
+    : request_(request),
+      found_(proximity),
+      facings_(memory.facings),
+      waiting_(memory.waiting),
+      separated_(memory.separated),
+      planes_(request.pose.X_WT, proximity.planes) {
+  found_.planes.clear();
+  found_.unplaced.clear();
+  found_.uncovered = {};
   waiting_.clear();
   separated_.clear();
-  planes_.begin(request.pose.X_WT, proximity.planes);
-  facings_.begin(request, proximity.unplaced);
+  facings_.begin(request, found_.unplaced);
   for (std::uint32_t i = 0; i < facings_.size(); ++i) {
     const Facing& facing = facings_[i];
     const CenteredBox box(facing.surface->boxes.of(WholeMesh()));
     push({facing.cover.distance(box), i, 0, 0, Kind::kMesh});
     pushIntended(i);
   }
+}
+
+void ProximityFinder::Search::run() {
+  while (!waiting_.empty() && process(pop())) {
+  }
+  std::sort(found_.planes.begin(), found_.planes.end(),
+            [](const auto& a, const auto& b) { return a.plane.gap < b.plane.gap; });
+  facings_.end();
 }
 
 // They are not where the boxes of the mesh say.
@@ -105,7 +116,7 @@ void ProximityFinder::Search::push(const WaitingPart& waiting) {
   std::push_heap(waiting_.begin(), waiting_.end());
 }
 
-ProximityFinder::Search::WaitingPart ProximityFinder::Search::pop() {
+ProximityFinder::Memory::WaitingPart ProximityFinder::Search::pop() {
   std::pop_heap(waiting_.begin(), waiting_.end());
   const WaitingPart waiting = waiting_.back();
   waiting_.pop_back();
@@ -135,7 +146,7 @@ bool ProximityFinder::Search::processPart(const WaitingPart& waiting, const Part
     planes_.quicken(*plane, facing, part, box);
     return true;
   }
-  if (waiting.bound >= request_->reach) return leaveOver(waiting.bound);
+  if (waiting.bound >= request_.reach) return leaveOver(waiting.bound);
   if (facing.cover.behindNearest(box)) return postpone(waiting);
   open(waiting, part, box);
   return true;
@@ -164,7 +175,7 @@ void ProximityFinder::Search::open(const WaitingPart& waiting, const Cluster& cl
   if (!facing.cover.hasNearest()) seed(waiting, cluster, box);
   const PieceCover::Classified classified = facing.cover.classify(cluster, box);
   for (const size_t plane : classified.standing) planes_.quicken(plane, facing, cluster, box);
-  const double limit = std::min(facing.nearest, request_->reach);
+  const double limit = std::min(facing.nearest, request_.reach);
   double rest = classified.not_nearer != 0 ? facing.nearest : kInfinity;
   for (std::uint64_t left = classified.nearer; left != 0; left &= left - 1) {
     const std::uint32_t triangle = facing.triangleAt(cluster, left);
@@ -198,7 +209,7 @@ void ProximityFinder::Search::seed(const WaitingPart& waiting, const Cluster& cl
     if (distance < least) nearest = triangle;
     least = std::min(least, distance);
   }
-  if (least >= request_->reach) return;
+  if (least >= request_.reach) return;
   const SeparatedTriangle separated = facing.separate(nearest);
   if (separated.gap > 0.0) wait(waiting.facing, separated);
 }
@@ -224,7 +235,7 @@ bool ProximityFinder::Search::processTriangle(const WaitingPart& waiting) {
     planes_.quicken(*plane, facing, facing.mesh().triangles()[separated.triangle]);
     return true;
   }
-  if (waiting.bound >= request_->reach) return leaveOver(waiting.bound);
+  if (waiting.bound >= request_.reach) return leaveOver(waiting.bound);
   if (!known) {
     if (facing.cover.behindNearest(at)) return postpone(waiting);
     separated = facing.separate(separated.triangle);
@@ -241,23 +252,25 @@ bool ProximityFinder::Search::standFor(const WaitingPart& waiting, const Separat
   Facing& facing = facings_[waiting.facing];
   if (separated.gap <= 0.0 && planes_.join(facing, separated)) return true;
   const double distance = std::min((1.0 - kNearer) * separated.gap, leastBound());
-  if (distance >= request_->reach || planes_.full()) return leaveOver(distance);
+  if (distance >= request_.reach || planes_.full()) return leaveOver(distance);
   planes_.add(facing, separated);
   return true;
 }
 
 bool ProximityFinder::Search::leaveOver(double distance) {
-  found_->uncovered.distance = std::max(0.0, distance - facings_.rounding() - facings_.longestWay());
-  found_->uncovered.speed = facings_.fastest();
+  found_.uncovered.distance = std::max(0.0, distance - facings_.rounding() - facings_.maxDisplacement());
+  found_.uncovered.speed = facings_.fastest();
   return false;
 }
 
-ProximityFinder::ProximityFinder() : search_(std::make_unique<Search>()) {}
+ProximityFinder::ProximityFinder() : memory_(std::make_unique<Memory>()) {}
 
 ProximityFinder::~ProximityFinder() = default;
 
-void ProximityFinder::find(const ProximityRequest& request, Proximity& proximity) { search_->find(request, proximity); }
+void ProximityFinder::find(const ProximityRequest& request, Proximity& proximity) {
+  Search(request, *memory_, proximity).run();
+}
 
-void ProximityFinder::reset() { search_->reset(); }
+void ProximityFinder::reset() { memory_->facings.reset(); }
 
 }  // namespace sweep_guard_core

@@ -1,5 +1,14 @@
 #pragma once
 
+// Idea: an operator does not move at constant velocity, but how recent motion went on can be learned. The displacement
+// within a horizon is regressed on recent velocities by recursive least squares [P, Sec. 3.2]; where [P] fits a polynomial
+// in time, these regressors are our own. Each of eight horizons has a regression, which learns from a sample as soon as
+// the motion within the horizon after it is known; other times are interpolated. Invariant: before anything is learned, the
+// prediction is constant velocity; each fit leans towards that of the next shorter horizon, and is blended with constant
+// velocity and with rest, the more so the more accurate these are. Cost: a sample completes about one target for each
+// horizon, and each takes a rank-1 update for each axis and one solution of 8 x 8; a prediction takes a product of 8
+// weights for each axis. The samples of the last second are kept; nothing is allocated unless they become more.
+
 #include <array>
 #include <memory>
 #include <utility>
@@ -46,11 +55,10 @@ struct LearnedMotion {
   LearnedMotion(const typename Space::Speeds& prior_speeds, size_t channels);
 
   std::array<Regressions, Space::kGroups> groups;
-  const double share;  ///< of each channel: it counts as so much of the time
+  const double share;  ///< of each channel in the time that is learned from
 };
 
-/// Learns the operator's displacements from the recent motion: for each of kLearnedHorizons, a regression of the
-/// displacement on MotionRegressors. Each one expects what was learned for the next shorter horizon.
+/// Predicts displacements by one DisplacementRegression on MotionRegressors for each of kLearnedHorizons.
 template <typename Space>
 class DirectExtrapolator : public Extrapolator<Space> {
  public:

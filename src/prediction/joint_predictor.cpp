@@ -58,7 +58,7 @@ void JointPredictor::observe(Time stamp, const std::vector<double>& positions) {
   for (size_t i = 0; i < positions.size(); ++i) {
     auto& [continuous, channel, newest] = joints_[i];
     newest = positions[i];
-    channel.observe({stamp, continuous ? unwound(newest, channel.newest().position) : newest});
+    channel.observe({stamp, continuous ? unwound(newest, channel.newest().value) : newest});
   }
 }
 

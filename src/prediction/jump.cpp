@@ -7,8 +7,8 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kLeastWay = 0.02;  // [m]
-constexpr double kLeastTurn = 0.1;  // [rad]
+constexpr double kLeastDistance = 0.02;  // [m]
+constexpr double kLeastTurn = 0.1;       // [rad]
 
 }  // namespace
 
@@ -20,12 +20,12 @@ Moved movedBetween(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
 
 std::optional<JumpSpeed> jumpSpeed(const Moved& moved, Duration within, const SpeedLimits& limits) {
   const double seconds = toSeconds(std::max(within, kJumpTime));
-  const double speed = moved.way / seconds;
+  const double speed = moved.distance / seconds;
   const double turn_rate = moved.turn / seconds;
-  const bool way_jumps = moved.way >= kLeastWay && speed > limits.max_speed;
+  const bool translation_jumps = moved.distance >= kLeastDistance && speed > limits.max_speed;
   const bool turn_jumps = moved.turn >= kLeastTurn && turn_rate > limits.max_turn_rate;
-  if (!way_jumps && !turn_jumps) return std::nullopt;
-  const bool turns = turn_jumps && (!way_jumps || turn_rate / limits.max_turn_rate > speed / limits.max_speed);
+  if (!translation_jumps && !turn_jumps) return std::nullopt;
+  const bool turns = turn_jumps && (!translation_jumps || turn_rate / limits.max_turn_rate > speed / limits.max_speed);
   return turns ? JumpSpeed{turn_rate, true} : JumpSpeed{speed, false};
 }
 

@@ -75,15 +75,9 @@ struct PoseSpace {
   static const std::array<int, 6>& degreesOf(const PredictorOptions& options) { return options.degree; }
 };
 
-/// The position of a joint at a moment; a turning one counts its turns.
-struct StampedPosition {
-  Time stamp;
-  double position = 0.0;  ///< [rad or m]
-};
-
 /// What moves: a joint. Its one coordinate is its position [rad or m].
 struct JointSpace {
-  using Sample = StampedPosition;
+  using Sample = StampedValue<double>;  ///< position; that of a turning joint counts its turns
   using Vector = Eigen::Matrix<double, 1, 1>;
   static constexpr int kSize = 1;
   static constexpr int kAxes = 1;
@@ -95,10 +89,8 @@ struct JointSpace {
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
 
-  static Vector displacementOf(const Sample& from, const Sample& to) { return Vector(to.position - from.position); }
-  static Sample displacedSample(const Sample& from, const Vector& moved) {
-    return {from.stamp, from.position + moved[0]};
-  }
+  static Vector displacementOf(const Sample& from, const Sample& to) { return Vector(to.value - from.value); }
+  static Sample displacedSample(const Sample& from, const Vector& moved) { return {from.stamp, from.value + moved[0]}; }
   using Speeds = Eigen::Array<double, 1, 1>;
   Speeds priorSpeeds() const { return Speeds(prior_speed); }
   bool exceeds(const Vector& moved, double seconds) const { return std::abs(moved[0]) > max_speed * seconds; }
@@ -107,8 +99,8 @@ struct JointSpace {
   }
   /// Stops at the limits; a joint beyond one may stay, but goes no farther.
   Vector possible(const Sample& from, const Vector& moved, double seconds) const {
-    const double to = from.position + limitedTo(moved, seconds)[0];
-    return Vector(std::clamp(to, std::min(lower, from.position), std::max(upper, from.position)) - from.position);
+    const double to = from.value + limitedTo(moved, seconds)[0];
+    return Vector(std::clamp(to, std::min(lower, from.value), std::max(upper, from.value)) - from.value);
   }
   static std::array<int, 1> degreesOf(const PredictorOptions& options) {
     return {*std::max_element(options.degree.begin(), options.degree.end())};

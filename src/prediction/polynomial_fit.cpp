@@ -76,7 +76,7 @@ void PolynomialFit<N>::add(Time stamp, const Values& values, Duration least_span
 template <int N>
 void PolynomialFit<N>::replaceNewest(const Values& values) {
   assert(!samples_.empty());
-  samples_.back().values = values;
+  samples_.back().value = values;
   rebuild();
 }
 
@@ -93,7 +93,7 @@ Duration PolynomialFit<N>::span() const {
 
 template <int N>
 void PolynomialFit<N>::include(const Sample& sample) {
-  fit_.add(legendre(toSeconds(sample.stamp - middle_) / half_width_), sample.values - origin_);
+  fit_.add(legendre(toSeconds(sample.stamp - middle_) / half_width_), sample.value - origin_);
 }
 
 template <int N>
@@ -104,7 +104,7 @@ void PolynomialFit<N>::dropOld(Duration least_span) {
   while (samples_.size() > kept && samples_.front().stamp < oldest && samples_[1].stamp <= spanned) {
     const Sample& old = samples_.front();
     const double weight = std::pow(options_.forgetting_factor, static_cast<double>(samples_.size() - 1));
-    fit_.add(legendre(toSeconds(old.stamp - middle_) / half_width_), old.values - origin_, -weight);
+    fit_.add(legendre(toSeconds(old.stamp - middle_) / half_width_), old.value - origin_, -weight);
     samples_.pop_front();
   }
 }
@@ -113,7 +113,7 @@ template <int N>
 void PolynomialFit<N>::rebuild() {
   middle_ = samples_.front().stamp + span() / 2;
   half_width_ = std::max(toSeconds(span()) / 2.0, 1e-9);
-  origin_ = samples_.back().values;
+  origin_ = samples_.back().value;
   fit_ = {};
   for (const Sample& sample : samples_) {
     fit_.forget(options_.forgetting_factor);

@@ -4,7 +4,7 @@
 #include <boost/circular_buffer.hpp>
 
 #include "prediction/rls.h"
-#include "sweep_guard/common/time.h"
+#include "sweep_guard/common/stamped_pose.h"
 
 namespace sweep_guard_core {
 
@@ -64,10 +64,8 @@ class PolynomialFit {
   Curve curve(const Degrees& degrees) const;
 
  private:
-  struct Sample {
-    Time stamp;
-    Values values;
-  };
+  using Sample = StampedValue<Values>;
+
   void include(const Sample& sample);
   void dropOld(Duration least_span);
   void rebuild();

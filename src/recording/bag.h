@@ -11,7 +11,7 @@
 
 namespace sweep_guard_recording {
 
-/// Which topics of a bag there are to choose from.
+/// Describes the topics of a bag among which one is chosen.
 struct TopicChoice {
   std::vector<std::string> types;  ///< of messages, as in geometry_msgs/PoseStamped
   std::string what;                ///< the types in words
@@ -24,12 +24,12 @@ struct TopicChoice {
 ///     them)
 std::string chooseTopic(const rosbag::Bag& bag, const std::string& requested, const TopicChoice& choice);
 
-/// Opens a bag and has it read.
+/// Opens a bag and passes it to a function.
 /// @throws sweep_guard_core::InvalidInput, which begins with the path, if it is no bag or a broken one, or if `read` throws
 ///     one
 void openBag(const std::string& path, const std::function<void(const rosbag::Bag&)>& read);
 
-/// Has each message on a topic read, in the order of the bag.
+/// Passes each message on a topic to a function, in the order of the bag.
 /// @throws sweep_guard_core::InvalidInput, which begins with topic and number of the message, if `read` throws one; or if
 ///     there is no message
 void forEachMessage(const rosbag::Bag& bag, const std::string& topic,
@@ -47,7 +47,7 @@ bool isBag(const std::string& path);
 ///     previous one, or the frames change
 std::vector<sweep_guard_core::StampedPose> readBag(const std::string& path, const std::string& topic);
 
-/// Has each sensor_msgs/JointState on one topic of a rosbag read, in the order of the bag.
+/// Passes each sensor_msgs/JointState on one topic of a rosbag to a function, in the order of the bag.
 /// @param topic  empty: the only topic of this type
 /// @param read   takes the name of the node that published the message, and the message
 /// @throws sweep_guard_core::InvalidInput as readBag() does, or naming the message if `read` throws one

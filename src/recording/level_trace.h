@@ -7,17 +7,16 @@
 
 namespace sweep_guard_recording {
 
-/// An interval in which a warning was on without a break.
-struct Alarm {
+struct TimeInterval {
   sweep_guard_core::Time begin;
   sweep_guard_core::Time end;
 };
 
 /// An interval of level CONTACT, and since when the guard had warned of it: the level was CONSIDERED or higher (REFLEX
-/// or higher) from then on without a break. Equal to the begin of the contact if there was no warning. What is left of
-/// the warning of an earlier contact does not count.
+/// or higher) from then on without a break. Equal to the begin of the contact if there was no warning. A warning that
+/// remains from an earlier contact does not count.
 struct WarnedContact {
-  Alarm contact;
+  TimeInterval contact;
   sweep_guard_core::Time considered_since;
   sweep_guard_core::Time reflex_since;
 };
@@ -32,11 +31,11 @@ class LevelTrace {
     if (changes_.empty() || changes_.back().level != level) changes_.push_back({time, level});
   }
 
-  /// Returns the intervals in which the level was `min_level` or higher. The last one ends at the newest time if the
-  /// level is still as high.
+  /// Returns the intervals in which the level was `min_level` or higher without a break. The last one ends at the newest
+  /// time if the level is still as high.
   /// @param min_level  kConsidered, kReflex or kContact
-  std::vector<Alarm> alarms(sweep_guard_core::WarningLevel min_level) const {
-    std::vector<Alarm> alarms;
+  std::vector<TimeInterval> alarms(sweep_guard_core::WarningLevel min_level) const {
+    std::vector<TimeInterval> alarms;
     for (size_t i = 0; i < changes_.size(); ++i) {
       if (changes_[i].level < min_level) continue;
       if (i == 0 || changes_[i - 1].level < min_level) alarms.push_back({changes_[i].time, {}});

@@ -22,7 +22,7 @@ struct DisplayStyle {
   ElementStyle reflex;
   ElementStyle considered;
   ElementStyle intended;   ///< where contact is meant
-  ElementStyle allowed;    ///< triangles that links touch which may
+  ElementStyle allowed;    ///< triangles that links are allowed to touch
   ElementStyle measured;   ///< volumes of the newest sweep
   size_t history = 0;      ///< number of earlier volumes that are kept
   ElementStyle predicted;  ///< volumes along the predicted path
@@ -41,7 +41,7 @@ struct DisplayStyle {
   std::optional<double>
       since_contact;  ///< [s] since the tool touched: the label says so, without spikes. Empty: it touches
 
-  /// Returns this style with a pale contact that was over so many seconds ago.
+  /// Returns this style with a pale contact, for one that ended this long ago [s].
   DisplayStyle held(double seconds) const;
   /// Returns this style with pale triangles that will be touched later: the operator knows of them.
   DisplayStyle acknowledged() const;

@@ -12,8 +12,8 @@
 
 namespace sweep_guard_rviz {
 
-/// Finds the point of a workpiece under the mouse. Searches the workpieces themselves, not the picture: what is drawn in
-/// front of them, as the tool and the tested volumes, is looked through.
+/// Finds the point of a workpiece under the mouse. Searches the workpieces themselves, not the picture, so the
+/// tool and the tested volumes in front of them do not matter.
 class SurfacePicker {
  public:
   /// Finds the pose of a frame in the fixed frame. @returns whether it is known

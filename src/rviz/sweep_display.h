@@ -22,8 +22,8 @@ class RosTopicProperty;
 namespace sweep_guard_rviz {
 
 /// Draws the deforming workpieces together with the content of a guard's `~view`. Draws only the workpieces when no
-/// `~view` has arrived for 0.5 s, and no tool while its pose is not known. By choice draws the force on the tool, and colors
-/// what was touched. Subscribes to nothing while it is disabled.
+/// `~view` has arrived for 0.5 s, and no tool while its pose is not known. Optionally draws the force on the tool and
+/// colors the touched triangles. Subscribes to nothing while it is disabled.
 class SweepDisplay : public rviz::Display {
  public:
   SweepDisplay();

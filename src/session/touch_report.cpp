@@ -16,34 +16,33 @@ using Eigen::Vector3d;
 using sweep_guard::ObjectTouches;
 using sweep_guard_core::csvLine;
 using sweep_guard_core::csvNumber;
+using sweep_guard_core::TriangleSurface;
 
 namespace {
 
 constexpr std::size_t kMaxWorkpieces = 4;
 constexpr std::size_t kMaxTriangles = 30000;
 
-using TouchedSurface = TouchLog::TouchedSurface;
-
-Vector3d middleOf(const TouchedSurface& surface, std::size_t triangle) {
+Vector3d middleOf(const TriangleSurface& surface, std::size_t triangle) {
   Vector3d sum = Vector3d::Zero();
   for (const std::uint32_t corner : surface.triangles[triangle]) sum += surface.vertices[corner];
   return sum / 3.0;
 }
 
-Vector3d areaOf(const TouchedSurface& surface, std::size_t triangle) {
+Vector3d areaOf(const TriangleSurface& surface, std::size_t triangle) {
   const auto& [a, b, c] = surface.triangles[triangle];
   const Vector3d& p = surface.vertices[a];
   return 0.5 * (surface.vertices[b] - p).cross(surface.vertices[c] - p);
 }
 
-Vector3d centerOf(const TouchedSurface& surface) {
+Vector3d centerOf(const TriangleSurface& surface) {
   Eigen::AlignedBox3d box;
   for (const Vector3d& vertex : surface.vertices) box.extend(vertex);
   return box.center();
 }
 
 // Whether the triangles face inwards, of a surface that is closed.
-bool isInsideOut(const TouchedSurface& surface) {
+bool isInsideOut(const TriangleSurface& surface) {
   const Vector3d center = centerOf(surface);
   double volume = 0.0;
   for (std::size_t triangle = 0; triangle < surface.triangles.size(); ++triangle)
@@ -51,7 +50,7 @@ bool isInsideOut(const TouchedSurface& surface) {
   return volume < 0.0;
 }
 
-std::string cornersCsv(const std::string& mesh, const TouchedSurface& surface, std::size_t triangle, bool turned) {
+std::string cornersCsv(const std::string& mesh, const TriangleSurface& surface, std::size_t triangle, bool turned) {
   std::vector<std::string> fields = {mesh, std::to_string(triangle)};
   auto corners = surface.triangles[triangle];
   if (turned) std::swap(corners[1], corners[2]);
@@ -74,8 +73,8 @@ void TouchLog::readShapes(const std::string& bag, const SessionTopics& topics) {
 }
 
 // Vertices of another revision, or of a mesh that was replaced, do not fit.
-TouchedSurface TouchLog::surfaceOf(const ObjectTouches& touches) const {
-  TouchedSurface surface;
+TriangleSurface TouchLog::surfaceOf(const ObjectTouches& touches) const {
+  TriangleSurface surface;
   const auto mesh = meshes_.find(touches.mesh_id);
   if (mesh == meshes_.end() || mesh->second->revision != touches.revision) return surface;
   const shape_msgs::Mesh& shape = mesh->second->mesh;
@@ -109,7 +108,7 @@ std::string surfacesCsv(const TouchLog& log) {
   std::string csv = "mesh,triangle,x1,y1,z1,x2,y2,z2,x3,y3,z3\n";
   const auto& objects = log.touches().objects;
   for (std::size_t i = 0; i < std::min(objects.size(), kMaxWorkpieces); ++i) {
-    const TouchedSurface surface = log.surfaceOf(objects[i]);
+    const TriangleSurface surface = log.surfaceOf(objects[i]);
     if (surface.triangles.empty()) continue;
     const bool turned = isInsideOut(surface);
     std::vector<std::uint32_t> triangles = objects[i].triangles;

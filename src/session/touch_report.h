@@ -4,18 +4,16 @@
 #include <sweep_guard/MeshVertices.h>
 #include <sweep_guard/Touches.h>
 
-#include <Eigen/Core>
-#include <array>
-#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "session/session_bag.h"
+#include "sweep_guard/geometry/mesh_order.h"
 
 namespace sweep_guard_session {
 
-/// What a guard counted in a session, and the newest shape of the workpieces.
+/// Keeps the touches that a guard counted in a session, and the newest shape of each workpiece.
 class TouchLog {
  public:
   void take(const sweep_guard::DeformableMesh::ConstPtr& mesh) { meshes_[mesh->id] = mesh; }
@@ -26,13 +24,9 @@ class TouchLog {
 
   const sweep_guard::Touches& touches() const { return touches_; }
 
-  /// The shape of a workpiece in its frame.
-  struct TouchedSurface {
-    std::vector<Eigen::Vector3d> vertices;                ///< [m]
-    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< empty: not known, or without all touched triangles
-  };
-  /// Returns the shape that the touches of a workpiece belong to.
-  TouchedSurface surfaceOf(const sweep_guard::ObjectTouches& touches) const;
+  /// Returns the shape that the touches of a workpiece belong to, in its frame [m]; without triangles it is not known, or lacks
+  /// touched ones.
+  sweep_guard_core::TriangleSurface surfaceOf(const sweep_guard::ObjectTouches& touches) const;
 
  private:
   std::map<std::string, sweep_guard::DeformableMesh::ConstPtr> meshes_;  // by id

@@ -134,7 +134,7 @@ class WorkpieceNode {
     if (marker_publisher_.getNumSubscribers() > 0) publishMarker(message);
     if (elastic_ && force_publisher_.getNumSubscribers() > 0) {
       force_publisher_.publish(
-          forceMarkers(message.header, {elastic_->pressed_M(), elastic_->force_M(), elastic_->dent()}));
+          forceMarkers(message.header, elastic_->pressed_M(), elastic_->force_M(), elastic_->dent()));
     }
   }
 

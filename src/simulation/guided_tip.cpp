@@ -3,20 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/rotation_vector.h"
+#include "prediction/motion_space.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_simulation {
 
 using Eigen::Vector3d;
+using sweep_guard_core::limited;
+using sweep_guard_core::rotationVector;
 
 namespace {
 
 constexpr double kApproachTime = 0.1;  // [s] time constant at the end of the approach
-
-Vector3d bounded(const Vector3d& vector, double length) {
-  const double norm = vector.norm();
-  return norm > length ? Vector3d(vector * (length / norm)) : vector;
-}
 
 // Both branches need at most half of the acceleration: v = sqrt(a d), and v = d / tau where that would stop late.
 Vector3d approachVelocity(const Vector3d& offset, double acceleration, double dt) {
@@ -24,11 +23,6 @@ Vector3d approachVelocity(const Vector3d& offset, double acceleration, double dt
   if (distance == 0.0) return Vector3d::Zero();
   const double time_constant = std::max(kApproachTime, 2.0 * dt);
   return offset / distance * std::min(distance / time_constant, std::sqrt(acceleration * distance));
-}
-
-Vector3d rotationVector(const Eigen::Matrix3d& rotation) {
-  const Eigen::AngleAxisd turn(rotation);
-  return turn.angle() * turn.axis();
 }
 
 }  // namespace
@@ -40,12 +34,12 @@ GuidedTip::GuidedTip(const Eigen::Isometry3d& X_WT, const Limits& limits) : X_WT
 }
 
 void GuidedTip::moveAt(const Twist& desired, double dt) {
-  const Vector3d linear = bounded(desired.linear, limits_.speed);
-  const Vector3d angular = bounded(desired.angular, limits_.turn_rate);
-  velocity_.linear += bounded(linear - velocity_.linear, limits_.acceleration * dt);
-  velocity_.angular += bounded(angular - velocity_.angular, limits_.turn_acceleration * dt);
-  X_WT_.translation() += velocity_.linear * dt;
-  const Vector3d turn = velocity_.angular * dt;
+  const Vector3d linear = limited(desired.v_W, limits_.speed);
+  const Vector3d angular = limited(desired.w_W, limits_.turn_rate);
+  velocity_.v_W += limited(linear - velocity_.v_W, limits_.acceleration * dt);
+  velocity_.w_W += limited(angular - velocity_.w_W, limits_.turn_acceleration * dt);
+  X_WT_.translation() += velocity_.v_W * dt;
+  const Vector3d turn = velocity_.w_W * dt;
   const Eigen::Quaterniond turned =
       Eigen::AngleAxisd(turn.norm(), turn.stableNormalized()) * Eigen::Quaterniond(X_WT_.linear());
   X_WT_.linear() = turned.normalized().toRotationMatrix();

@@ -2,13 +2,11 @@
 
 #include <Eigen/Geometry>
 
+#include "sweep_guard/motion/braking.h"
+
 namespace sweep_guard_simulation {
 
-/// Velocity of a tool.
-struct Twist {
-  Eigen::Vector3d linear = Eigen::Vector3d::Zero();   ///< of the tip, in W [m/s]
-  Eigen::Vector3d angular = Eigen::Vector3d::Zero();  ///< in W [rad/s]
-};
+using sweep_guard_core::Twist;
 
 /// Moves the tip of a tool that is guided by hand. Bounds speed and acceleration, so the tip moves smoothly even if its
 /// target jumps.
@@ -30,7 +28,7 @@ class GuidedTip {
 
   void stop() { velocity_ = Twist(); }  ///< sets the velocity to zero at once
 
-  /// Moves for `dt` [s] > 0 at a velocity, as far as the limits allow.
+  /// Moves for `dt` [s] > 0 at a velocity of the tip, as far as the limits allow.
   void moveAt(const Twist& desired, double dt);
 
   /// Moves for `dt` [s] > 0 towards a goal, at the highest speed from which the tip can still stop there. From rest, it

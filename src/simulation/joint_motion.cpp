@@ -41,7 +41,7 @@ using Eigen::Vector3d;
 using sweep_guard_core::Robot;
 using sweep_guard_core::TreeLink;
 
-constexpr double kRest = 1e-3;  // [m]; a shorter way has no direction
+constexpr double kRest = 1e-3;  // [m]; a shorter path has no direction
 
 int jointsBelow(const sweep_guard_core::KinematicTree& tree, size_t link) {
   int joints = 0;
@@ -105,8 +105,8 @@ Meeting halfway(const sweep_guard_ros::RobotModel& model, const std::vector<Stam
   std::vector<Vector3d> path;
   for (const Eigen::Isometry3d& pose : X_TB) path.push_back(pose * tool.bounds_T().center());
   const size_t middle = middleOf(path);
-  const Vector3d way = path[middle] - path.front();
-  const Vector3d direction_T = way.norm() > kRest ? Vector3d(way.normalized()) : Vector3d(-Vector3d::UnitZ());
+  const Vector3d moved = path[middle] - path.front();
+  const Vector3d direction_T = moved.norm() > kRest ? Vector3d(moved.normalized()) : Vector3d(-Vector3d::UnitZ());
   return {X_TB[middle] * frontOf(tool, X_TB[middle].linear().transpose() * direction_T), direction_T};
 }
 

@@ -6,17 +6,13 @@
 #include <vector>
 
 #include "ros/tool/tool_model.h"
-#include "sweep_guard/common/time.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
+#include "sweep_guard/kinematics/joint_timeline.h"
 #include "sweep_guard/kinematics/kinematic_tree.h"
 
 namespace sweep_guard_simulation {
 
-/// The positions of all joints of a robot at one moment.
-struct StampedPositions {
-  sweep_guard_core::Time stamp;
-  std::vector<double> positions;  ///< one of each variable of the tree [rad or m]
-};
+using sweep_guard_core::StampedPositions;
 
 /// Reads the motion of a robot's joints from the sensor_msgs/JointState of a rosbag, which may come from several nodes, each
 /// with joints of its own. The motion begins when all joints are known, and ends when the first of them ends.
@@ -29,14 +25,15 @@ std::vector<StampedPositions> readJointMotion(const std::string& path, const std
                                               const sweep_guard_core::KinematicTree& tree,
                                               const std::map<std::string, double>& fixed_joints);
 
-/// Where an articulated tool shall meet a workpiece.
+/// Where an articulated tool is to meet a workpiece.
 struct Meeting {
   Eigen::Vector3d p_T;          ///< the front of the tool when it meets [m], in the tool frame
   Eigen::Vector3d direction_T;  ///< [-] unit vector from where it began
 };
 
-/// Returns the meeting in the middle of the path of the last body, the one that most joints move. The path is that of the
-/// center of its bounding box; what meets is its front. Downwards if it began where it is then.
+/// Returns the meeting in the middle of the path of the last body, the one that most joints move. The path is that of
+/// the center of its bounding box; its front meets the workpiece. The direction is downwards if the body has not moved
+/// by then.
 /// @param model   has at least one body (asserted)
 /// @param motion  not empty (asserted)
 Meeting halfway(const sweep_guard_ros::RobotModel& model, const std::vector<StampedPositions>& motion);

@@ -36,8 +36,8 @@ void Joystick::setAxes(const std::vector<float>& axes, sweep_guard_core::Time at
   Twist twist;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    twist.linear[k] = options_.linear[k] * deflection(axes, options_.linear_axes[i], options_.dead_zone);
-    twist.angular[k] = options_.angular[k] * deflection(axes, options_.angular_axes[i], options_.dead_zone);
+    twist.v_W[k] = options_.linear[k] * deflection(axes, options_.linear_axes[i], options_.dead_zone);
+    twist.w_W[k] = options_.angular[k] * deflection(axes, options_.angular_axes[i], options_.dead_zone);
   }
   if (at < ignored_until_) return;
   newest_ = twist;

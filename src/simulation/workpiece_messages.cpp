@@ -56,18 +56,19 @@ sweep_guard::MeshVertices verticesMessage(std::vector<float> positions) {
   return message;
 }
 
-visualization_msgs::MarkerArray forceMarkers(const std_msgs::Header& header, const PressedSurface& pressed) {
-  const bool there = !pressed.force.isZero(0.0);
-  const Eigen::Vector3d end = pressed.point + kLengthPerForce * pressed.force;
+visualization_msgs::MarkerArray forceMarkers(const std_msgs::Header& header, const Eigen::Vector3d& point,
+                                             const Eigen::Vector3d& force, double dent) {
+  const bool there = !force.isZero(0.0);
+  const Eigen::Vector3d end = point + kLengthPerForce * force;
   Marker arrow = markerOf(header, Marker::ARROW, there);
-  arrow.points = {tf2::toMsg(pressed.point), tf2::toMsg(end)};
+  arrow.points = {tf2::toMsg(point), tf2::toMsg(end)};
   arrow.scale.x = 0.004;
   arrow.scale.y = 0.01;
   arrow.scale.z = 0.015;
   Marker text = markerOf(header, Marker::TEXT_VIEW_FACING, there);
   text.pose.position = tf2::toMsg(Eigen::Vector3d(end + kBeside));
   text.scale.z = 0.01;
-  text.text = fmt::format("{:.2f} N\ndent {:.1f} mm", pressed.force.norm(), 1e3 * pressed.dent);
+  text.text = fmt::format("{:.2f} N\ndent {:.1f} mm", force.norm(), 1e3 * dent);
   visualization_msgs::MarkerArray markers;
   markers.markers = {arrow, text};
   return markers;

@@ -25,16 +25,13 @@ sweep_guard::DeformableMesh meshMessage(const std::vector<float>& positions,
 /// Returns vertices of the same revision. The caller sets header and id.
 sweep_guard::MeshVertices verticesMessage(std::vector<float> positions);
 
-/// What a tool does to an elastic workpiece, in one frame.
-struct PressedSurface {
-  Eigen::Vector3d point;  ///< where the force acts [m]
-  Eigen::Vector3d force;  ///< of the workpiece on the tool [N]
-  double dent;            ///< [m]
-};
-
 /// Returns an arrow from the point, 0.05 m long per N, with the numbers beside it in words. Without a force
 /// they are deleted.
-visualization_msgs::MarkerArray forceMarkers(const std_msgs::Header& header, const PressedSurface& pressed);
+/// @param point  where the force acts [m]
+/// @param force  of an elastic workpiece on the tool [N]
+/// @param dent   in the workpiece [m]
+visualization_msgs::MarkerArray forceMarkers(const std_msgs::Header& header, const Eigen::Vector3d& point,
+                                             const Eigen::Vector3d& force, double dent);
 
 /// Constructs a workpiece from private parameters of a node: `mesh_file` (empty: a hull), `triangles` (of the hull),
 /// `size` and `amplitude` (of an elastic one: 0).

@@ -138,7 +138,7 @@ TEST_F(MessageWindowTest, AnewItKnowsOnlyTheNewestOfEachKey) {
   hear(6s, "pose");
   EXPECT_FALSE(window_.hasGoneBack(Time(kBegin + 5500ms)));
   EXPECT_TRUE(window_.hasGoneBack(Time(kBegin)));
-  window_.beginAnew();
+  window_.startOver();
   hear(0s, "again");
   EXPECT_EQ(contents(), (std::vector<std::string>{"liver", "again"}));
 }

@@ -84,7 +84,7 @@ TEST(CalibrationTest, TheFitFallsEvenWhereTheFrequencyRises) {
 class OutcomesTest : public testing::Test {
  protected:
   std::vector<PredictionOutcome> outcomes(Duration interval) const {
-    return outcomesOf({motion_, findings_, 0, touches_}, interval);
+    return outcomesOf(motion_, findings_, 0, touches_, interval);
   }
 
   static Time at(int ms) { return Time(milliseconds(ms)); }
@@ -102,7 +102,7 @@ class OutcomesTest : public testing::Test {
 
   RecordedMotion motion_{straightMotion(0.1, milliseconds(10), std::chrono::seconds(4))};
   GuardFindings findings_;
-  std::vector<TouchInterval> touches_ = {{at(2000), at(2500)}};
+  std::vector<TimeInterval> touches_ = {{at(2000), at(2500)}};
 };
 
 TEST_F(OutcomesTest, AreMetIfATouchBeginsWithinTheInterval) {

@@ -45,7 +45,7 @@ class JointErrorsTest : public testing::Test {
 
   const KinematicTree tree_ = planarArm();
   const std::vector<size_t> links_ = {1, 2};
-  std::vector<StampedJoints> states_;
+  std::vector<StampedPositions> states_;
 };
 
 // On a circle of half a metre a point that goes on along its tangent is 0.5 * sqrt(1 + a^2 - 2 (cos a + a sin a) + 1) off.

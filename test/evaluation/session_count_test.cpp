@@ -47,7 +47,7 @@ class SessionCountTest : public testing::Test {
     return poses;
   }
 
-  std::vector<TouchInterval> touches(const SquareObstacle& obstacle) const {
+  std::vector<TimeInterval> touches(const SquareObstacle& obstacle) const {
     const TriangleMesh mesh_W = meshOf(obstacle);
     ObstacleMesh object(tool_, mesh_W);
     return touchesOf(RecordedMotion(poses_), tool_, object);
@@ -72,7 +72,7 @@ class SessionCountTest : public testing::Test {
 };
 
 TEST_F(SessionCountTest, ATouchLastsFromTheTipToTheRearEnd) {
-  const std::vector<TouchInterval> found = touches(wall());
+  const std::vector<TimeInterval> found = touches(wall());
   ASSERT_EQ(found.size(), 1U);
   EXPECT_NEAR(sweep_guard_core::toSeconds(found[0].begin.time_since_epoch()), 5.0, 2e-5);
   EXPECT_GE(found[0].end, at(6000));

@@ -9,7 +9,7 @@ namespace sweep_guard_evaluation {
 namespace {
 
 using sweep_guard_core::WarningLevel;
-using sweep_guard_recording::Alarm;
+using sweep_guard_recording::TimeInterval;
 
 class SimulateGuardTest : public testing::Test {
  protected:
@@ -68,7 +68,7 @@ TEST_F(SimulateGuardTest, ComputesAWarningForEveryThreshold) {
   EXPECT_GT(by_threshold[0][0].levels.alarms(WarningLevel::kConsidered).size(), 0U);
   const auto seconds_of = [](const Episode& episode) {
     sweep_guard_core::Duration sum{0};
-    for (const Alarm& alarm : episode.levels.alarms(WarningLevel::kConsidered)) sum += alarm.end - alarm.begin;
+    for (const TimeInterval& alarm : episode.levels.alarms(WarningLevel::kConsidered)) sum += alarm.end - alarm.begin;
     return sum;
   };
   EXPECT_GT(seconds_of(by_threshold[0][0]), seconds_of(by_threshold[1][0]));

@@ -114,7 +114,7 @@ TEST_F(FrameJumpsTest, PredictionIsRightAgainTwoPosesAfterAJump) {
   const PredictedPath path = guard_.predictMotion({}, fromSeconds(0.1)).path;
   ASSERT_FALSE(path.empty());
   const Moved moved = movedBetween(next.X_WT, path.back().X_WT);
-  EXPECT_NEAR(moved.way, 0.0125, 0.005);
+  EXPECT_NEAR(moved.distance, 0.0125, 0.005);
   EXPECT_LT(moved.turn, 0.05);
 }
 

@@ -251,7 +251,7 @@ PermissionInputs fresh() {
 ForcePermission decide(const std::function<void(PermissionInputs&)>& change) {
   PermissionInputs inputs = fresh();
   change(inputs);
-  return decideForce({inputs, {}}, kNow, {});
+  return decideForce(inputs, {}, kNow, {});
 }
 
 TEST(ForcePermissionTest, FreshInputsOfAnyKnownLevelLetTheWholeForceThrough) {
@@ -270,7 +270,7 @@ TEST(ForcePermissionTest, ASilentPosePlanesOrDeviceFadeTheForceOutFrom50To70Mill
     EXPECT_NEAR(pose.gain, gain, 1e-9) << silent;
     const ForcePermission planes = decide([&](auto& inputs) { inputs.planes->timestamps = silent_since; });
     EXPECT_NEAR(planes.gain, gain, 1e-9) << silent;
-    const ForcePermission device = decideForce({fresh(), silent_since}, kNow, {});
+    const ForcePermission device = decideForce(fresh(), silent_since, kNow, {});
     EXPECT_NEAR(device.gain, gain, 1e-9) << silent;
     if (silent == 50) continue;
     EXPECT_EQ(device.cause, PermissionCause::kDeviceSilent);

@@ -31,7 +31,7 @@ class InteractionFinderTest : public testing::Test {
  protected:
   Interaction find(const PoseWithFrames& pose) {
     Interaction found;
-    finder_.find({pose, workpieces_, options_}, found);
+    finder_.find(pose, workpieces_, options_, found);
     return found;
   }
 
@@ -87,7 +87,7 @@ TEST_F(InteractionFinderTest, PiecesThatOverlapCountTwice) {
   InteractionFinder twice({Tool(std::vector<ConvexPiece>{{"a", box}, {"b", box}})});
   Interaction found;
   const PoseWithFrames pose = poseAt(placedAt(0.1, 0.2, 1.02));
-  twice.find({pose, workpieces_, options_}, found);
+  twice.find(pose, workpieces_, options_, found);
   const Interaction once = find(pose);
   EXPECT_NEAR(found.objects.at(0).volume, 2.0 * once.objects.at(0).volume, 1e-18);
   EXPECT_LT((found.total.force_T - 2.0 * once.total.force_T).norm(), 1e-9);
@@ -158,7 +158,7 @@ class JawsTest : public InteractionFinderTest {
   }
   Interaction findOfJaws(const PoseWithFrames& pose) {
     Interaction found;
-    jaws_.find({pose, workpieces_, options_}, found);
+    jaws_.find(pose, workpieces_, options_, found);
     return found;
   }
 
@@ -172,7 +172,7 @@ TEST_F(JawsTest, TheForceOfAJawIsThatOfARigidToolWithTheJawInPlace) {
   const ConvexShape jaw = ConvexShape::box(kHalfTool);
   InteractionFinder rigid({Tool(std::vector<ConvexPiece>{{"b", jaw.placed(X_TB)}, {"a", jaw.placed(X_TA_)}})});
   Interaction expected;
-  rigid.find({poseAt(X_WT), workpieces_, options_}, expected);
+  rigid.find(poseAt(X_WT), workpieces_, options_, expected);
   const Interaction found = findOfJaws(poseOf(X_WT, X_TB));
   ASSERT_EQ(found.objects.size(), 1U);
   ASSERT_EQ(expected.objects.size(), 1U);
@@ -212,10 +212,10 @@ LoopEnergy energyOnLoop(const Isometry3d& X_MT, const Vector3d& u, const Vector3
   };
   LoopEnergy energy;
   Interaction before;
-  finder.find({poseAt(pose(0)), workpieces, options}, before);
+  finder.find(poseAt(pose(0)), workpieces, options, before);
   for (int i = 1; i <= kSteps; ++i) {
     Interaction now;
-    finder.find({poseAt(pose(i), i * 1ms), workpieces, options}, now);
+    finder.find(poseAt(pose(i), i * 1ms), workpieces, options, now);
     const Isometry3d step_T = pose(i - 1).inverse() * pose(i);
     const Eigen::AngleAxisd turned(step_T.linear());
     const double work = 0.5 * (before.total.force_T + now.total.force_T).dot(step_T.translation()) +

@@ -192,12 +192,11 @@ class ScenePlayer {
     if (holding_ || interaction->header.stamp != now()) return;
     const auto vectorOf = [](const auto& v) { return Eigen::Vector3d(v.x, v.y, v.z); };
     const Eigen::Isometry3d X_WT = script_.pose(t_);
-    PressedSurface pressed{Eigen::Vector3d::Zero(), X_WT.linear() * vectorOf(interaction->wrench.force),
-                           elastic_->dent()};
-    if (!interaction->objects.empty()) pressed.point = X_WT * vectorOf(interaction->objects[0].centroid);
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();
+    if (!interaction->objects.empty()) point = X_WT * vectorOf(interaction->objects[0].centroid);
     std_msgs::Header header = interaction->header;
     header.frame_id = frame_;
-    force_ = forceMarkers(header, pressed);
+    force_ = forceMarkers(header, point, X_WT.linear() * vectorOf(interaction->wrench.force), elastic_->dent());
     force_publisher_.publish(force_);
   }
 

@@ -19,7 +19,7 @@ LevelTrace traceOf(std::initializer_list<std::pair<Duration, WarningLevel>> leve
   return trace;
 }
 
-void expectAlarm(const Alarm& alarm, Duration begin, Duration end) {
+void expectAlarm(const TimeInterval& alarm, Duration begin, Duration end) {
   EXPECT_EQ(alarm.begin, Time(begin));
   EXPECT_EQ(alarm.end, Time(end));
 }

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 constexpr double kTipStep = 0.01;  // [s]
 constexpr double kTiny = 1e-12;
-const Twist kForward{/*linear=*/{0.1, 0.0, 0.0}};
+const Twist kForward{/*v_W=*/{0.1, 0.0, 0.0}};
 
 Isometry3d poseAt(const Vector3d& position, double angle = 0.0) {
   Isometry3d pose(AngleAxisd(angle, Vector3d(1, 2, 3).normalized()));
@@ -109,7 +109,7 @@ TEST(GuidedTipTest, TurnsAboutTheAxesOfTheWorldAndItsTip) {
   GuidedTip tip(Isometry3d(Eigen::Translation3d(1, 2, 3) * AngleAxisd(M_PI, Vector3d::UnitX())), {});
   const Isometry3d before = tip.pose();
   Twist desired;
-  desired.angular.z() = 1.0;
+  desired.w_W.z() = 1.0;
   for (int i = 0; i < 100; ++i) tip.moveAt(desired, kTipStep);
   const AngleAxisd turn(tip.pose().linear() * before.linear().transpose());
   EXPECT_TRUE(turn.axis().isApprox(Vector3d::UnitZ(), 1e-9));
@@ -120,7 +120,7 @@ TEST(GuidedTipTest, TurnsAboutTheAxesOfTheWorldAndItsTip) {
 TEST(GuidedTipTest, RotationsStayRotations) {
   GuidedTip tip(poseAt({0, 0, 0}), {});
   Twist desired;
-  desired.angular << 1, -1, 1;
+  desired.w_W << 1, -1, 1;
   for (int i = 0; i < 100000; ++i) tip.moveAt(desired, kTipStep);
   EXPECT_TRUE((tip.pose().linear().transpose() * tip.pose().linear()).isIdentity(1e-12));
 }

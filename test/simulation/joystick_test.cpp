@@ -25,15 +25,15 @@ Joystick::Options plain() {
 TEST(JoystickTest, MovesAndTurnsAlongTheAxesOfTheDevice) {
   Joystick joystick(plain());
   joystick.setAxes({1, 1, 1, 1, -1, 1}, kNow);
-  EXPECT_EQ(joystick.velocity(kNow).linear, Vector3d(1, 2, 4));
-  EXPECT_EQ(joystick.velocity(kNow).angular, Vector3d(10, -20, 40));
+  EXPECT_EQ(joystick.velocity(kNow).v_W, Vector3d(1, 2, 4));
+  EXPECT_EQ(joystick.velocity(kNow).w_W, Vector3d(10, -20, 40));
 }
 
 TEST(JoystickTest, RisesFromNothingAtTheBorderOfTheDeadZone) {
   Joystick joystick(plain());
   joystick.setAxes({0.5F, -0.75F, 0.25F, -0.5F, 0.75F, 3.0F}, kNow);
-  EXPECT_EQ(joystick.velocity(kNow).linear, Vector3d(0, -1, 0));
-  EXPECT_EQ(joystick.velocity(kNow).angular, Vector3d(0, 10, 40));
+  EXPECT_EQ(joystick.velocity(kNow).v_W, Vector3d(0, -1, 0));
+  EXPECT_EQ(joystick.velocity(kNow).w_W, Vector3d(0, 10, 40));
 }
 
 TEST(JoystickTest, MappingSwapsReversesAndLeavesOut) {
@@ -42,33 +42,33 @@ TEST(JoystickTest, MappingSwapsReversesAndLeavesOut) {
   options.linear.z() = -4;
   Joystick joystick(options);
   joystick.setAxes({1, 1, 0, 0, 0, 0}, kNow);
-  EXPECT_EQ(joystick.velocity(kNow).linear, Vector3d(0, 0, -4));
+  EXPECT_EQ(joystick.velocity(kNow).v_W, Vector3d(0, 0, -4));
 }
 
 TEST(JoystickTest, RestsBeforeTheFirstMessageAndWhenMessagesStop) {
   Joystick joystick(plain());
-  EXPECT_EQ(joystick.velocity(kNow).linear, Vector3d::Zero());
+  EXPECT_EQ(joystick.velocity(kNow).v_W, Vector3d::Zero());
   joystick.setAxes({1, 0, 0, 0, 0, 0}, kNow);
-  EXPECT_EQ(joystick.velocity(kNow + milliseconds(250)).linear, Vector3d(1, 0, 0));
-  EXPECT_EQ(joystick.velocity(kNow + milliseconds(251)).linear, Vector3d::Zero());
+  EXPECT_EQ(joystick.velocity(kNow + milliseconds(250)).v_W, Vector3d(1, 0, 0));
+  EXPECT_EQ(joystick.velocity(kNow + milliseconds(251)).v_W, Vector3d::Zero());
 }
 
 TEST(JoystickTest, RestsWhenReleasedUntilAMessageComesAfterwards) {
   Joystick joystick(plain());
   joystick.setAxes({1, 0, 0, 0, 0, 0}, kNow);
   joystick.ignoreUntil(kNow + milliseconds(100));
-  EXPECT_EQ(joystick.velocity(kNow).linear, Vector3d::Zero());
+  EXPECT_EQ(joystick.velocity(kNow).v_W, Vector3d::Zero());
   joystick.setAxes({1, 0, 0, 0, 0, 0}, kNow + milliseconds(99));
-  EXPECT_EQ(joystick.velocity(kNow + milliseconds(99)).linear, Vector3d::Zero());
+  EXPECT_EQ(joystick.velocity(kNow + milliseconds(99)).v_W, Vector3d::Zero());
   joystick.setAxes({1, 0, 0, 0, 0, 0}, kNow + milliseconds(100));
-  EXPECT_EQ(joystick.velocity(kNow + milliseconds(100)).linear, Vector3d(1, 0, 0));
+  EXPECT_EQ(joystick.velocity(kNow + milliseconds(100)).v_W, Vector3d(1, 0, 0));
 }
 
 TEST(JoystickTest, RefusesADeviceOfFewerAxesAndNumbersThatAreNone) {
   Joystick joystick(plain());
   EXPECT_THROW(joystick.setAxes({1, 1}, kNow), sweep_guard_core::InvalidInput);
   EXPECT_THROW(joystick.setAxes({1, 1, 1, 1, 1, NAN}, kNow), sweep_guard_core::InvalidInput);
-  EXPECT_EQ(joystick.velocity(kNow).linear, Vector3d::Zero());
+  EXPECT_EQ(joystick.velocity(kNow).v_W, Vector3d::Zero());
 }
 
 TEST(JoystickTest, RefusesOptionsOutOfRange) {

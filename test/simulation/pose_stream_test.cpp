@@ -21,7 +21,7 @@ TEST(PoseStreamTest, GuidedPosesComeAtAnEvenRateAlsoWhileTheTipRests) {
 
 TEST(PoseStreamTest, GuidedPosesBeginWhereTheTipIsAndFollowTheGuide) {
   Twist desired;
-  desired.linear.x() = 0.01;
+  desired.v_W.x() = 0.01;
   const PoseStream stream = guided(GuidedTip(Eigen::Isometry3d(Eigen::Translation3d(1, 2, 3)), {}), /*rate=*/100.0,
                                    [desired](GuidedTip& tip, double dt) { tip.moveAt(desired, dt); });
   EXPECT_EQ(stream()->X_WT.translation(), Eigen::Vector3d(1, 2, 3));

@@ -10,7 +10,8 @@ namespace sweep_guard_core {
 template <typename Sample>
 class SampleBuffer {
  public:
-  /// Largest number of samples. A longer buffer drops its second one: the motion goes straight past it.
+  /// Largest number of samples. If one more is added, the second one is dropped: the motion then passes it on a
+  /// straight line.
   static constexpr size_t kMaxSize = 8192;
 
   /// @returns false if a sample was dropped

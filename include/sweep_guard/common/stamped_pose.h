@@ -12,6 +12,13 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 /// Holds a covariance of such values, in this order.
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
+/// A value at one time.
+template <typename Value>
+struct StampedValue {
+  Time stamp;
+  Value value;
+};
+
 /// The pose of the tool frame T in the fixed frame W at one time.
 struct StampedPose {
   Time stamp;

@@ -7,14 +7,15 @@
 
 namespace sweep_guard_core {
 
-/// Describes what the surface of a mesh encloses, whatever form the sender gave it. Corners at one place are one corner: first
-/// those at equal positions, then those on borders that lie within kWeld of each other. Of faces that are there several times
-/// one is kept, in whatever direction. The surface then consists of patches, joined where exactly two triangles share an edge.
-/// A patch that hangs on the rest by edges with an odd number of triangles, as a fin or a plate inside, encloses nothing
-/// and is left out. Patches with a border are joined where they share it: two solids with a common face. A part without a
-/// border is closed; it is turned outwards, and inwards if it is a cavity: if its corners lie in another closed part against
-/// which the sender has reversed it. All other parts are open. Indices are the sender's; where corners are welded, of the first one at that place. Computed once: it holds for every deformation that
-/// keeps welded corners together.
+/// Describes what the surface of a mesh encloses, whatever form the sender gave it. Corners at one place are one
+/// corner: first those at equal positions, then those on borders that lie within kWeld of each other. Of faces that are
+/// there several times one is kept, in whatever direction. The surface then consists of patches, joined where exactly
+/// two triangles share an edge. A patch that hangs on the rest by edges with an odd number of triangles, as a fin or a
+/// plate inside, encloses nothing and is left out. Patches with a border are joined where they share it: two solids
+/// with a common face. A part without a border is closed; it is turned outwards, and inwards if it is a cavity: if its
+/// corners lie in another closed part against which the sender has reversed it. All other parts are open. Indices are
+/// the sender's; where corners are welded, that of the first one at that place. Computed once: it holds for every
+/// deformation that keeps welded corners together.
 class Enclosure {
  public:
   static constexpr double kWeld = 1e-6;  ///< of the diagonal of the box around all vertices

@@ -14,9 +14,9 @@ struct LinkSurface {
   std::vector<Triangle> triangles;          ///< of each convex piece: a closed surface, counter-clockwise from outside
 };
 
-/// Returns surfaces around the links of a body, in the order in which its pieces name them. Each convex piece lies within its
-/// part, padding and roundness included, which is nowhere farther from it than 1.3 times what ConvexShape::mesh_T() lacks of
-/// it, and at least 0.01 mm.
+/// Returns surfaces around the links of a body, in the order in which its pieces name them. Each surface encloses its
+/// convex piece, padding and roundness included, at a distance of at least 0.01 mm, and is nowhere farther from it than
+/// 1.3 times the distance by which ConvexShape::mesh_T() falls short of it.
 /// @throws InvalidInput if a piece reaches to kMaxCoordinate
 /// @throws DeviceError as convexHull()
 std::vector<LinkSurface> linkSurfaces(const Tool& body_B);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -10,6 +11,11 @@ namespace sweep_guard_core {
 
 /// Three vertex indices, 0-based, of either winding.
 using Triangle = std::array<std::uint32_t, 3>;
+
+struct TriangleSurface {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<Triangle> triangles;  ///< indices into `vertices`
+};
 
 /// A range of triangles at consecutive places whose corners lie in few blocks. A place is the index of a vertex or
 /// triangle in memory (MeshOrder); a block is simd::kBlock vertices at consecutive places.

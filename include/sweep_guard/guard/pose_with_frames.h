@@ -36,9 +36,9 @@ struct FrameDrift {
   Vector6d velocity_W = Vector6d::Zero();  ///< of its origin [m/s], and angular [rad/s]
   Duration age{};                          ///< of its newest measured pose, at the pose of the tool; >= 0
 
-  /// Returns a bound [m] on the way of a point of the frame in this time.
+  /// Returns a bound [m] on the displacement of a point of the frame in this time.
   /// @param radius  distance of the point from the origin of the frame [m], >= 0
-  double way(double radius) const;
+  double displacement(double radius) const;
 };
 
 /// The pose of the tool frame T, and of every mesh frame M, in the fixed frame W at one moment. All poses must

@@ -9,7 +9,7 @@
 
 namespace sweep_guard_core {
 
-/// How planes answer to the tool.
+/// How planes resist the tool.
 struct ContactLaw {
   double stiffness = 500.0;  ///< [N/m], >= 0
   double damping = 0.0;      ///< of a motion into a plane [N s/m], >= 0
@@ -28,10 +28,11 @@ struct ToolForce {
 /// Computes the force of separating planes that are carried by a newer pose of the tool. Keeps its buffers between calls:
 /// nothing is allocated for as many planes as ProximityFinder finds.
 ///
-/// Let u be the shortest translation that brings each ball of the tool to `distance` before its planes: the way to the
-/// surface point of a god object [Zilles and Salisbury 1995]. The force is stiffness * u: the gradient of an energy, so
-/// planes at rest return what they took, and parallel planes count once. Damping acts along u, in proportion to the speed
-/// at which u grows, and never pulls. Where no translation frees the tool, because it pierces a sheet, there is no force.
+/// Let u be the shortest translation that brings each ball of the tool to `distance` before its planes: the
+/// displacement to the surface point of a god object [Zilles and Salisbury 1995]. The force is stiffness * u: the
+/// gradient of an energy, so planes at rest return the energy that they took, and parallel planes count once. Damping
+/// acts along u, in proportion to the speed at which u grows, and never pulls. Where no translation frees the tool,
+/// because it pierces a sheet, there is no force.
 class ContactForceFinder {
  public:
   ContactForceFinder();

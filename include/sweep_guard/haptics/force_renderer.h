@@ -3,24 +3,19 @@
 #include <Eigen/Geometry>
 #include <optional>
 
+#include "sweep_guard/common/stamped_pose.h"
 #include "sweep_guard/haptics/contact_force.h"
 #include "sweep_guard/motion/motion_guard.h"
 #include "sweep_guard/motion/motion_permission.h"
 
 namespace sweep_guard_core {
 
-/// When a force is taken back.
+/// When a force is withdrawn.
 struct ForceLimits {
   Duration warning_silence = std::chrono::milliseconds(150);  ///< by receipt, > 0
   Duration silence = std::chrono::milliseconds(50);           ///< of poses and planes, by receipt, > 0
   Duration ramp = std::chrono::milliseconds(20);              ///< in which the force then goes to zero, > 0
   Duration pose_age = std::chrono::milliseconds(150);         ///< by stamp, > 0
-};
-
-/// What is known when a force is to be sent.
-struct ForceEvidence {
-  PermissionInputs guard;            ///< but for PermissionInputs::command
-  std::optional<Timestamps> device;  ///< newest pose that the device tells itself; empty: the tool stands for it
 };
 
 struct ForcePermission {
@@ -36,7 +31,10 @@ struct ForcePermission {
 /// | no pose or no planes yet, an old pose, planes past `valid_until`, incomplete or of an unknown tool | 0 |
 /// | pose, planes or device silent for `silence` | from 1 down to 0 within `ramp` |
 /// | otherwise | 1 |
-ForcePermission decideForce(const ForceEvidence& evidence, const Instant& now, const ForceLimits& limits);
+/// @param inputs  but for PermissionInputs::command
+/// @param device  newest pose that the device reports itself; empty: the tool stands for it
+ForcePermission decideForce(const PermissionInputs& inputs, const std::optional<Timestamps>& device, const Instant& now,
+                            const ForceLimits& limits);
 
 /// A device that is sampled and driven with a period, and the damper that is simulated with it.
 struct SampledDevice {
@@ -60,7 +58,7 @@ double maxStiffness(const SampledDevice& device, double delay);
 /// @param lever         [m]
 double dampingWithLever(double damping, double turn_damping, double lever);
 
-/// What a device exerts on its hand, along the axes of its frame D.
+/// Force and torque of a device on the hand, along the axes of its frame D.
 struct DeviceWrench {
   Eigen::Vector3d force_D = Eigen::Vector3d::Zero();   ///< [N]
   Eigen::Vector3d torque_D = Eigen::Vector3d::Zero();  ///< [N m]
@@ -68,8 +66,8 @@ struct DeviceWrench {
 
 struct ForceOptions {
   ContactLaw law;
-  double position_scale = 1.0;                     ///< way of the tool for a way of the device [-], > 0
-  double force_scale = 1.0;                        ///< force at the device for a force on the tool [-], > 0
+  double position_scale = 1.0;                     ///< displacement of the tool per displacement of the device [-], > 0
+  double force_scale = 1.0;                        ///< force at the device per force on the tool [-], > 0
   double max_force = 3.0;                          ///< at the device [N], > 0
   double max_force_rate = 500.0;                   ///< [N/s], > 0
   double max_torque = 0.0;                         ///< at the device [N m], >= 0; 0: no torque
@@ -93,11 +91,11 @@ struct RenderedForce {
   ForcePermission permission;
   double depth = 0.0;           ///< of the tool [m]
   double stiffness_gain = 1.0;  ///< share of the stiffness that the delay allows, in [0, 1]
-  Duration delay{};             ///< that is counted on: the longest lately, and the output's
+  Duration delay{};             ///< that is assumed: the longest lately, plus that of the output
 };
 
-/// Computes the force of the surfaces around the tool for a device, clamped in size and rate. What it returns may be active:
-/// PassiveDevice follows. One thread at a time. It allocates nothing.
+/// Computes the force of the surfaces around the tool for a device, clamped in size and rate. The result may be active:
+/// PassiveDevice limits it afterwards. One thread at a time. It allocates nothing.
 class ForceRenderer {
  public:
   /// @throws InvalidInput  if an option is NaN or out of range
@@ -110,11 +108,6 @@ class ForceRenderer {
   const ForceOptions& options() const { return options_; }
 
  private:
-  struct Sample {
-    Eigen::Isometry3d X_WT;
-    Time stamp;
-  };
-
   void measureVelocity(const MotionInputs::ToolPose& pose);
   void measureDelay(const Timestamps& pose, const Instant& now);
   double stiffnessGain(const DeviceWrench& stiff) const;
@@ -123,9 +116,9 @@ class ForceRenderer {
 
   const ForceOptions options_;
   ContactForceFinder finder_;
-  std::optional<Sample> newest_;  // pose of the tool
-  Twist twist_W_;                 // low-passed
-  double delay_ = 0.0;            // longest lately [s]
+  std::optional<StampedPose> newest_;  // of the tool
+  Twist twist_W_;                      // low-passed
+  double delay_ = 0.0;                 // longest lately [s]
   std::optional<SteadyTime> rendered_;
   DeviceWrench unfaded_;  // of the last call, before the gain of the permission
   bool faded_ = false;    // by a gain below 1

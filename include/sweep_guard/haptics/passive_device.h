@@ -15,12 +15,13 @@ struct TurnLimits {
   double max_acceleration;  ///< [rad/s^2], > 0
 };
 
-/// Returns by how much [rad] the integral of the turn rate over an interval may differ from the rotation vector between the
-/// orientations at its ends: turns do not commute, and a hand that goes around a cone turns although it ends as it began.
-/// The rotation vector r follows r' = w - r x w / 2 + ... [Bortz 1971]. To first order the difference is the area between
-/// the path of r and its chord: at most length^2 / (2 pi), and at most rate * acceleration * interval^3 / 12, because w turns
-/// no faster than the acceleration allows. The terms that follow are bounded by a factor of 1 + length / 2: checked by random
-/// motions, not proven. Where the hand may have turned all around, nothing is known but the longest way.
+/// Returns by how much [rad] the integral of the turn rate over an interval may differ from the rotation vector between
+/// the orientations at its ends: turns do not commute, and a hand that goes around a cone turns although it ends as it
+/// began. The rotation vector r follows r' = w - r x w / 2 + ... [Bortz 1971]. To first order the difference is the
+/// area between the path of r and its chord: at most length^2 / (2 pi), and at most rate * acceleration * interval^3 /
+/// 12, because w turns no faster than the acceleration allows. The terms that follow are bounded by a factor of 1 +
+/// length / 2: checked by random motions, not proven. Where the hand may have made a full turn, the bound is the
+/// longest path that it can have turned, plus the angle.
 /// @param angle     of the rotation between the ends, in [0, pi] [rad]
 /// @param interval  >= 0 [s]
 double coningBound(double angle, double interval, const TurnLimits& limits);
@@ -44,7 +45,7 @@ class PassiveDevice {
   struct Hand {
     Eigen::Isometry3d X_FH = Eigen::Isometry3d::Identity();
     Eigen::Matrix3d R_FD = Eigen::Matrix3d::Identity();  ///< axes of the device
-    double scale = 1.0;                                  ///< way in F for a way of the device [-], > 0
+    double scale = 1.0;                                  ///< displacement in F per displacement of the device [-], > 0
     Timestamps timestamps;
   };
 

@@ -1,5 +1,12 @@
 #pragma once
 
+// Idea: an observer adds up the energy that the device gives, E = sum of f[k-1] (x[k] - x[k-1]), and a controller limits
+// the next effort to what is left of the tolerance [Hannaford and Ryu 2002]; the energy is counted with the delay of
+// positions and efforts [Artigas et al. 2011]. Invariant: E at the newest known position, plus the most that the efforts
+// sent since may give however the hand moves within its limits, stays below max_effort * max_speed * period. Cost: moved()
+// and limit() visit only the efforts that may act after the newest known position, a few at a period of 1 ms and 1024 at
+// most; nothing is allocated.
+
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -8,16 +15,15 @@
 
 namespace sweep_guard_core {
 
-/// Keeps the energy that one axis of a device gives to its hand at no more than what it took from it, and a tolerance: a
-/// passivity observer and controller in the time domain [Hannaford and Ryu 2002], with the energy in delayed as it is
-/// known [Artigas et al. 2011]. Units are those of the device: [N], [m], [m/s], or [N m], [rad], [rad/s].
+/// Limits the effort along one axis of a device so that the device is passive: the energy that it gives to the hand never
+/// exceeds what it took from it by more than a tolerance. Units are those of the device: [N], [m], [m/s], or [N m], [rad],
+/// [rad/s].
 ///
-/// The observer adds E = sum of f[k-1] (x[k] - x[k-1]), which is positive where the device gives energy. Of what happened
-/// after the newest known position, the worst is assumed: all the motion there can be, with the force. Where the force
-/// changed within the time that it needs to the device, the worst of those that may have acted counts. The controller
-/// makes the next force so small that the sum stays below the tolerance max_effort * max_speed * period, however the hand
-/// moves within its limits, and that it need not change before the next position: what changes is charged. Energy that was
-/// taken is forgotten when no force is wanted any more, energy that was given a second later: each contact pays for itself.
+/// After the newest known position the worst case is assumed: the longest motion within the limits, along the effort. A
+/// change of the effort takes up to `output_delay` to reach the device, so the worst of all efforts that may act counts.
+/// The effort is chosen so small that it can stay the same until the next position, because each change is charged. When
+/// no effort is wanted any more, energy that was taken is forgotten at once, and energy that was given one second later:
+/// each contact pays for itself.
 class PassivityController {
  public:
   struct Options {
@@ -30,16 +36,16 @@ class PassivityController {
 
   explicit PassivityController(const Options& options) : options_(options) {}
 
-  /// Observes that the device has moved, since the last call. The first call only tells where it is.
+  /// Observes how far the device has moved since the last call. The first call only sets the position.
   /// @param until  time of the newest position; one before that of the last call counts as this
-  /// @param doubt  by how much the displacement may be another one, >= 0
+  /// @param doubt  bound on the error of the displacement, >= 0
   void moved(double displacement, SteadyTime until, double doubt = 0.0);
 
   /// Returns the effort to send: the wanted one, or the nearest one that is passive. Zero before the device is known.
   /// @param now  not before that of the last call
   double limit(double wanted, SteadyTime now);
 
-  double energy() const { return energy_; }  ///< that the device has given, at most [J]; negative: it took more
+  double energy() const { return energy_; }  ///< upper bound on what the device has given [J]; negative: it took more
   double tolerance() const;                  ///< [J]
 
  private:
@@ -53,10 +59,10 @@ class PassivityController {
   template <typename Visit>
   void visitActing(SteadyTime until, const Visit& visit) const;
   double seconds(SteadyTime time) const { return toSeconds(time - *known_); }
-  double longestWay(double after) const;
+  double maxDisplacement(double after) const;
   double unknownEnergy(SteadyTime now) const;
-  double most(SteadyTime now, double lasts) const;
-  double steady(SteadyTime now);
+  double maxEffort(SteadyTime now, double duration) const;
+  double steadyEffort(SteadyTime now);
   void forget(double wanted, SteadyTime now);
   void remember(double effort, SteadyTime now);
 
@@ -65,10 +71,10 @@ class PassivityController {
   size_t next_ = 0;
   size_t count_ = 0;
   std::optional<SteadyTime> known_;  // time of the newest position
-  double speed_ = 0.0;               // the largest it may have had there
-  double interval_ = 0.0;            // from the position before [s]
-  double cycle_ = 0.0;              // age of a position when the next one comes, the longest lately in this contact [s]
-  std::optional<double> held_;      // the most that may be sent until the next position; empty: to be computed
+  double speed_ = 0.0;               // upper bound on the speed there
+  double interval_ = 0.0;            // between the newest two positions [s]
+  double cycle_ = 0.0;          // recent maximum, in this contact, of the age of a position when the next one comes [s]
+  std::optional<double> held_;  // largest effort until the next position; empty: to be computed
   std::optional<SteadyTime> free_;  // since when no force is wanted
   double energy_ = 0.0;
 };

@@ -13,7 +13,7 @@
 
 namespace sweep_guard_core {
 
-/// How a workpiece answers to a piece of the tool inside of it.
+/// How a workpiece resists a piece of the tool inside it.
 struct ForceLaw {
   double stiffness = 1e6;    ///< force per volume [N/m^3], >= 0: the foundation modulus of an elastic layer
   double damping = 0.0;      ///< [s/m], >= 0: by which share the force grows per closing speed [Hunt and Crossley 1975]
@@ -59,12 +59,6 @@ struct Interaction {
   Workpieces unplaced;  ///< left out because their frame is unknown at the pose
 };
 
-struct InteractionRequest {
-  const PoseWithFrames& pose;
-  const Workpieces& workpieces;
-  const InteractionOptions& options;
-};
-
 /// The convex pieces of a tool, by body, ready for InteractionFinder.
 using InterpenetrationFinders = std::vector<std::vector<InterpenetrationFinder>>;
 
@@ -86,7 +80,8 @@ class InteractionFinder {
   }
 
   /// @param[out] interaction  overwritten; its buffers are used again
-  void find(const InteractionRequest& request, Interaction& interaction);
+  void find(const PoseWithFrames& pose, const Workpieces& workpieces, const InteractionOptions& options,
+            Interaction& interaction);
 
   void reset() { motions_.clear(); }  ///< forgets the poses
 

@@ -10,7 +10,7 @@
 
 namespace sweep_guard_core {
 
-/// What the tool has done to one triangle.
+/// How often and how deep the tool touched one triangle.
 struct TriangleTouches {
   std::uint32_t triangle;
   /// Number of sweeps in which the tool touched the triangle; stays at the largest number of the type.
@@ -18,7 +18,7 @@ struct TriangleTouches {
   float depth;  ///< largest depth at the end of such a sweep (Impact::depth) [m]; NaN: no sweep had a narrow phase
 };
 
-/// What the tool has done to one workpiece.
+/// The touched triangles of one workpiece.
 struct ObjectTouches {
   std::string id;
   std::uint32_t revision = 0;
@@ -29,18 +29,18 @@ struct ObjectTouches {
 /// Counts in how many sweeps the tool touched each triangle of the workpieces, and keeps the largest depth.
 ///
 /// A sweep touches the triangles for which the narrow phase finds an impact, also where contact is intended or allowed;
-/// without narrow phase, all that it does not rule out. It counts once, however many poses it passes and bodies the tool
-/// has. A sweep along a jump (`jumps` or `jump` of the report) is not counted: its triangles are kept apart. Depths are those at
-/// the swept poses: what a tool does on the way in and out within one sweep has depth 0.
+/// without narrow phase, all that it does not rule out. It counts once, however many poses it passes and bodies the
+/// tool has. A sweep along a jump (`jumps` or `jump` of the report) is not counted: its triangles are kept apart.
+/// Depths are those at the swept poses: a contact that begins and ends within one sweep has depth 0.
 ///
-/// Deformations keep the counts. They begin anew when the triangles or the revision of a workpiece change, and after it
-/// was away. A triangle of a workpiece that was swept costs 12 bytes. Once a workpiece was swept and the buffers are as
-/// large as the largest contact, nothing is allocated.
+/// Deformations keep the counts. They restart when the triangles or the revision of a workpiece change, and when it
+/// returns after it was removed. A triangle of a workpiece that was swept costs 12 bytes. Once a workpiece was swept
+/// and the buffers are as large as the largest contact, nothing is allocated.
 class TouchMap {
  public:
   /// @param workpieces  all that there are; not only those swept
   void add(const SweepReport& report, const Workpieces& workpieces);
-  void clear();  ///< all counts begin anew
+  void clear();  ///< restarts all counts
 
   std::uint64_t changes() const { return changes_; }  ///< grows with every change of what touches() returns
   Time newest() const { return newest_; }             ///< stamp of the newest pose that touched; 0: none since clear()
@@ -65,7 +65,7 @@ class TouchMap {
 
   void forgetRemoved(const Workpieces& workpieces);
   Touched& touchedOf(const std::shared_ptr<const Workpiece>& workpiece);
-  void beginAnew(Touched& touched);
+  void restart(Touched& touched);
   void findTouched(const SweepResult& result);
   void count(const SweepResult& result, Touched& touched) const;
 

@@ -8,17 +8,17 @@
 
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/sample_buffer.h"
-#include "sweep_guard/common/time.h"
+#include "sweep_guard/common/stamped_pose.h"
 #include "sweep_guard/kinematics/robot_motion.h"
 
 namespace sweep_guard_core {
 
-/// A position of one quantity at one moment.
-template <typename Value>
-struct StampedValue {
+/// The positions of all joints of a robot at one time.
+struct StampedPositions {
   Time stamp;
-  Value value;
+  std::vector<double> positions;  ///< one of each variable of the tree [rad or m]
 };
+
 template <typename Value>
 using Track = SampleBuffer<StampedValue<Value>>;
 
@@ -31,11 +31,11 @@ struct OutOfOrder : InvalidInput {
   using InvalidInput::InvalidInput;
 };
 
-/// Merges the positions of the joints of a robot, each with stamps of its own, into states of all of them. A joint moves
-/// at constant speed between two of its positions, a continuous one the shorter way. A state comes out for every stamp of
-/// any joint, once all joints are known up to it: joined by RobotMotion, the states are exactly the motion of the joints,
-/// and nothing of it is left out but what leavesOut() tells of. Nothing comes out before the first stamp up to which all
-/// joints have been heard of.
+/// Merges the positions of the joints of a robot, each with stamps of its own, into states of all of them. A joint
+/// moves at constant speed between two of its positions, a continuous one the shorter way. A state comes out for every
+/// stamp of any joint, once all joints are known up to it: joined by RobotMotion, the states are exactly the motion of
+/// the joints, and nothing of it is left out except what leavesOut() reports. Nothing comes out before the first stamp
+/// up to which all joints have been heard of.
 ///
 /// The root may move as well: its poses are joined as Motion says.
 class JointTimeline {

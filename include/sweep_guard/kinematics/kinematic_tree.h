@@ -29,7 +29,7 @@ struct TreeLink {
   size_t parent = kRoot;                                   ///< index, lower than that of this link; kRoot: the root R
   Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();  ///< translation [m]
   JointType type = JointType::kFixed;
-  Eigen::Vector3d axis_J = Eigen::Vector3d::UnitZ();  ///< unit; of the turn or the way
+  Eigen::Vector3d axis_J = Eigen::Vector3d::UnitZ();  ///< unit; of the rotation or the translation
   /// The joint is at multiplier * variable + offset [rad or m]. Not used by fixed joints.
   size_t variable = 0;
   double multiplier = 1.0;

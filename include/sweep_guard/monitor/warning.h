@@ -55,7 +55,8 @@ struct Warning {
   /// [0, 1]; 0 once its prediction has ended, or while a stronger warning about another workpiece is held.
   double probability = 0.0;
   Duration probability_interval{};  ///< the reflex interval if the predicted contact lies in it, or the considered one
-  /// When what the level tells of ended; it is shown for the hold time. Empty: it lasts, or there is none.
+  /// When the contact or the predicted contact ended that the level still reports, for the hold time. Empty: it lasts,
+  /// or there is none.
   std::optional<Time> held_since;
   bool acknowledged = false;  ///< the operator knows of this workpiece; only at kConsidered
   bool intended = false;      ///< the newest sweep, if not stale, met a workpiece as intended; at any level

@@ -71,9 +71,10 @@ class WarningMonitor {
   /// Returns what is known of the other tools, in the order of requireTools().
   std::vector<WarningInputs::OtherTool> otherTools() const;
 
-  /// Reports the newest transform of a frame of workpieces that moves: the warning is not clear while it is late. Late is what
-  /// is older than `pose_timeout` and the period of the frame, which counts up to `pose_timeout` and is the median of its
-  /// last 16 intervals; that ends 1 s after it was last late. Does not call on_fault.
+  /// Reports the newest transform of a frame of workpieces that moves: the warning is not clear while it is late. A
+  /// transform is late if it is older than `pose_timeout` and the period of the frame, which counts up to
+  /// `pose_timeout` and is the median of its last 16 intervals; that ends 1 s after it was last late. Does not call
+  /// on_fault.
   void frameHeard(const std::string& frame, Time stamp, const Instant& now);
   /// Sets of which frames frameHeard() counts; the others are forgotten.
   void setMovingFrames(const std::set<std::string>& frames);
@@ -141,8 +142,9 @@ class WarningMonitor {
   void setWorkpieces(const Workpieces& workpieces, std::optional<SteadyTime> now = {});
 
   /// Reports a sweep to a pose, and clears the faults from before the pose's checkpoint. Does nothing if the monitor
-  /// was restarted since the checkpoint; if that was by timeJumped(), a contact counts as one that is over. Each failure in the
-  /// report becomes a new fault, kDetectorFault. The warning tells of jumps in the report for the hold time; its level stays.
+  /// was restarted since the checkpoint; if that was by timeJumped(), a contact counts as one that is over. Each
+  /// failure in the report becomes a new fault, kDetectorFault. The warning reports jumps for the hold time; its level
+  /// stays.
   /// @param checkpoint  taken when the pose was received
   void swept(const SweepReport& report, const Timestamps& pose, const Checkpoint& checkpoint, SteadyTime now);
 
@@ -155,9 +157,9 @@ class WarningMonitor {
 
   /// Acknowledges the considered warning of a workpiece. Level and reasons stay; Warning::acknowledged and the text say
   /// so, unless another workpiece has a considered warning that is not acknowledged: the warning then names that one.
-  /// Acknowledged is one mesh of one workpiece. It ends at kReflex and kContact, whatever workpiece is met;
-  /// `acknowledge_time` later; when the mesh is replaced or removed; with a restart; and by endAcknowledgement(), which
-  /// the caller owes once the tool has left. Does not call on_fault.
+  /// An acknowledgement holds for one mesh of one workpiece. It ends at kReflex and kContact, whatever workpiece is
+  /// met; `acknowledge_time` later; when the mesh is replaced or removed; with a restart; and by endAcknowledgement(),
+  /// which the caller must call once the tool has left. Does not call on_fault.
   /// @returns why not; empty: acknowledged
   std::string acknowledge(const std::string& id, const Instant& now);
   /// Returns why acknowledge() would refuse; empty: it would not.
@@ -169,13 +171,13 @@ class WarningMonitor {
   /// Returns the workpieces that are acknowledged.
   std::vector<std::string> acknowledged(SteadyTime now) const;
 
-  /// Reports that what was swept does not count any more: time went back, or the machine was suspended. Restarts, and keeps
-  /// contacts, lasting failures and a disagreement of the detectors. kTimeJump lasts until a pose received later is swept. A
-  /// contact is shown for the hold time after it was found last.
+  /// Reports that earlier sweeps no longer count, because time went back, or the machine was suspended. Restarts, and
+  /// keeps contacts, lasting failures and a disagreement of the detectors. kTimeJump lasts until a pose received later
+  /// is swept. A contact is shown for the hold time after it was found last.
   void timeJumped(const std::string& message);
 
-  /// Reports that a static transform that counts has changed: kTimeJump lasts until a pose received later is swept, and what
-  /// was predicted from earlier ones covers nothing.
+  /// Reports that a static transform that counts has changed: kTimeJump lasts until a pose received later is swept, and
+  /// predictions from earlier ones cover nothing.
   void placedAnew(const std::string& message);
 
   /// Forgets poses, predictions, contacts, faults, lasting failures and a disagreement of the detectors. Keeps what

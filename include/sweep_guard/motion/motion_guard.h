@@ -65,7 +65,7 @@ struct GuardedMotion {
   Duration planes_age{};             ///< on the clock on which it is larger; 0 without planes
 };
 
-/// Limits commanded velocities of a tool to what can stop before the surfaces around it, and stops them when the guard
+/// Limits commanded velocities of a tool so that it can stop before the surfaces around it, and stops it when the guard
 /// does not know. One thread at a time. After the first calls it allocates nothing.
 class MotionGuard {
  public:
@@ -77,7 +77,7 @@ class MotionGuard {
   /// @throws InvalidInput  if the command is not finite or out of range; then stop() has to be sent
   GuardedMotion guard(const MotionInputs& inputs, const MotionCommand& command, const Instant& now);
 
-  /// Decides what of a command is let through, as guard() does, and remembers nothing.
+  /// Decides how much of a command is let through, as guard() does, and remembers nothing.
   /// @param command  without a stamp of its own, that of its receipt
   PermissionDecision permission(const MotionInputs& inputs, const Timestamps& command, const Instant& now) const;
 

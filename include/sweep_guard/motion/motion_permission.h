@@ -8,14 +8,14 @@
 
 namespace sweep_guard_core {
 
-/// What of a command is let through.
+/// How much of a command is let through.
 enum class Permission : std::uint8_t {
   kStop,    ///< zero
   kEscape,  ///< escapeVelocity()
   kLimited  ///< VelocityLimiter::limit()
 };
 
-/// Why it is that much.
+/// Why it is this much.
 enum class PermissionCause : std::uint8_t {
   kGuarded,        ///< warning, planes and command are fresh
   kNoCommand,      ///< no command has arrived yet
@@ -42,7 +42,7 @@ struct PermissionLimits {
   Duration silence = std::chrono::milliseconds(150);           ///< of the guard, by receipt; > 0
   Duration command_timeout = std::chrono::milliseconds(100);   ///< > 0
   double escape_speed = 0.0;                                   ///< of any tool point [m/s], >= 0; 0: no escape
-  Duration escape_plane_age = std::chrono::milliseconds(500);  ///< older planes do not show the way out; > 0
+  Duration escape_plane_age = std::chrono::milliseconds(500);  ///< older planes do not show where to escape to; > 0
   Duration pose_age = std::chrono::milliseconds(500);          ///< of the tool's pose, by its stamp; > 0
 };
 
@@ -70,8 +70,8 @@ struct PermissionDecision {
   PermissionCause cause = PermissionCause::kNoCommand;
 };
 
-/// Decides what of a command is let through. Nothing is remembered: the same inputs give the same decision. The first row
-/// that applies wins:
+/// Decides how much of a command is let through. Nothing is remembered: the same inputs give the same decision. The
+/// first row that applies wins:
 ///
 /// | inputs | permission |
 /// |---|---|

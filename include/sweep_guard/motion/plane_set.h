@@ -27,15 +27,15 @@ struct ToolBalls {
   std::vector<std::vector<ToolBall>> pieces;  ///< in the tool frame
 };
 
-/// Returns an upper bound of the distance of any tool point from `p_T` [m].
+/// Returns an upper bound on the distance of any tool point from `p_T` [m].
 double radiusAbout(const Eigen::Vector3d& p_T, const ToolBalls& tool);
 
 /// Returns whether each plane belongs to a piece of this tool.
 bool belongsTo(const PlaneSet& planes, const ToolBalls& tool);
 
-/// Returns an upper bound of the way of any tool point from one pose to another [m].
+/// Returns an upper bound on the displacement of any tool point from one pose to another [m].
 /// @param radius  largest distance of a tool point from the origin of the tool frame [m]
-double farthestWay(const Eigen::Isometry3d& from_WT, const Eigen::Isometry3d& to_WT, double radius);
+double largestDisplacement(const Eigen::Isometry3d& from_WT, const Eigen::Isometry3d& to_WT, double radius);
 
 /// Returns whether a surface lies between two poses: a piece that is before its plane at the first one reaches beyond it at
 /// the other one, or some tool point may reach what no plane stands for.

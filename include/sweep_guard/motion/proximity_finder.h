@@ -1,5 +1,14 @@
 #pragma once
 
+// Idea: few planes stand for all surfaces near a tool, so whoever limits a motion looks at no mesh. A best-first search
+// [Hjaltason and Samet 1999] over all pairs of a convex piece and a mesh descends through the boxes of the mesh (groups,
+// clusters, triangles), and takes the part next that may be nearest to its piece. A part that lies wholly behind a plane
+// of its pair is done; any other triangle gets a plane of its own, along the direction of separation(). Invariant: each
+// triangle lies behind a plane of its pair or in a part that waits, and no part that waits is nearer than the first; so
+// the search may end at any time, at the reach or out of planes, and one distance bounds all that it leaves over. Cost:
+// a distance of boxes for each part that no plane covers, and a separation() only for triangles that may be the nearest;
+// no allocation once the buffers have grown.
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -49,19 +58,15 @@ struct Proximity {
   Workpieces unplaced;          ///< left out because their frame is unknown at the pose
 };
 
-/// Finds separating planes that stand for all surfaces near a tool. Takes the nearest triangle first; a triangle that lies
-/// wholly behind a plane of its piece and workpiece needs none of its own. A plane touches its triangle, moved to the tool
-/// by a twentieth of its gap, so that one stands for a surface that is nearly flat. In contact the gap is negative, and
-/// the plane stands for the triangles in contact with nearly the same normal, and for nothing else that lies behind it.
+/// Finds separating planes that stand for all surfaces near a tool. A plane touches its triangle, moved to the tool by a
+/// twentieth of its gap, so that one stands for a surface that is nearly flat. In contact the gap is negative, and the
+/// plane stands for the triangles in contact with nearly the same normal, and for nothing else that lies behind it.
 ///
 /// The speed of a surface is the mean one between the two latest deformations that find() got of a workpiece, by their
 /// stamps, plus that of the mesh frame between the two latest poses. It is not less than that of the fastest vertex that
 /// the plane stands for, and 0 before a second deformation. It stays until the next deformation: that no update comes
 /// does not mean that the surface rests. For the time between the deformation and the pose, up to 1 s, a surface that comes
-/// nearer counts as having gone on at that speed. What a vertex did between two updates is not known.
-///
-/// The search goes best first through the boxes of the mesh: groups, clusters, triangles. Only triangles that may be the
-/// nearest ones get a separation(). Keeps its buffers between calls: nothing is allocated in steady state.
+/// nearer counts as having gone on at that speed. How a vertex moved between two updates is not known.
 class ProximityFinder {
  public:
   static constexpr size_t kMaxPlanes = 64;
@@ -77,8 +82,9 @@ class ProximityFinder {
   void reset();  ///< forgets earlier deformations and poses: surfaces count as at rest until they move again
 
  private:
+  struct Memory;
   class Search;
-  std::unique_ptr<Search> search_;
+  std::unique_ptr<Memory> memory_;
 };
 
 }  // namespace sweep_guard_core

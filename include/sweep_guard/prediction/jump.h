@@ -12,8 +12,8 @@ namespace sweep_guard_core {
 
 /// How far something has moved.
 struct Moved {
-  double way = 0.0;   ///< [m], >= 0
-  double turn = 0.0;  ///< [rad], >= 0
+  double distance = 0.0;  ///< [m], >= 0
+  double turn = 0.0;      ///< [rad], >= 0
 };
 
 /// Returns how far a frame has moved from one pose to another; its turn is the smaller one.
@@ -31,22 +31,24 @@ struct JumpSpeed {
   bool turns = false;
 };
 
-/// Returns the speed of a motion that is a jump, the one farther beyond its limit; empty: it is none. A jump is faster than a
-/// limit over at least 20 ms, and at least 20 mm or 0.1 rad long: stamps may be wrong by some milliseconds.
+/// Returns the speed of a motion that is a jump, that of the translation or of the rotation, whichever exceeds its
+/// limit by more; empty: it is none. A jump is faster than a limit over at least 20 ms, and at least 20 mm or 0.1 rad
+/// long: stamps may be wrong by some milliseconds.
 /// @param within  time that the motion took, >= 0
 std::optional<JumpSpeed> jumpSpeed(const Moved& moved, Duration within, const SpeedLimits& limits);
 
-/// How long before a pose its motion is looked at.
+/// How far the motion before a pose is looked back at.
 constexpr Duration kJumpTime = std::chrono::milliseconds(20);
 
-/// Returns the jump that the last step of a motion makes. The step is faster than a limit by its own stamps and over at least
-/// 20 ms; alone, or with what was moved before it: a jump may come in parts, and bursts of stamps are none.
+/// Returns the jump that the last step of a motion makes. The step is faster than a limit by its own stamps and over at
+/// least 20 ms; alone, or together with the motion before it, because a jump may come in parts and a burst of stamps is
+/// none.
 /// @param longer  returns the Moved since a time that is kJumpTime before the end of the step, if possible, and how long that is
 template <typename Longer>
 std::optional<JumpSpeed> jumpOfStep(const Moved& step, Duration within, const SpeedLimits& limits,
                                     const Longer& longer) {
   const double seconds = toSeconds(within);
-  if (step.way <= limits.max_speed * seconds && step.turn <= limits.max_turn_rate * seconds) return std::nullopt;
+  if (step.distance <= limits.max_speed * seconds && step.turn <= limits.max_turn_rate * seconds) return std::nullopt;
   if (const auto jump = jumpSpeed(step, within, limits)) return jump;
   const auto [moved, since] = longer();
   return jumpSpeed(moved, since, limits);

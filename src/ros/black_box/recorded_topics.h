@@ -10,7 +10,7 @@
 
 namespace sweep_guard_ros {
 
-/// Of which messages the newest from before a recording belongs to it.
+/// Which of the messages from before a recording belong to it: of each kind only the newest.
 enum class KeptMessages {
   kNone,
   kNewest,         ///< of each publisher

@@ -81,12 +81,12 @@ void Recorder::hear(const RecordedTopic& topic, const ros::MessageEvent<const to
 
 // An event that waits is written before its messages leave the window, also where the clock leaps or the memory is full.
 void Recorder::makeRoomFor(sweep_guard_core::Time received, std::size_t size) {
-  const bool anew = window_.hasGoneBack(received);
+  const bool starts_over = window_.hasGoneBack(received);
   if (trigger_.waiting() && !summary_.writing) {
     const bool due = trigger_.due({received, std::chrono::steady_clock::now()});
-    if (anew || due || window_.isLeaving(trigger_.waiting()->begin.stamp, size)) beginRecording();
+    if (starts_over || due || window_.isLeaving(trigger_.waiting()->begin.stamp, size)) beginRecording();
   }
-  if (anew) window_.beginAnew();
+  if (starts_over) window_.startOver();
 }
 
 sweep_guard_core::Instant Recorder::now() const { return {window_.newest(), std::chrono::steady_clock::now()}; }

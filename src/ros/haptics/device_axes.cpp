@@ -18,7 +18,7 @@ std::optional<Eigen::Matrix3d> DeviceAxes::newest(Time now) const {
   const std::lock_guard lock(mutex_);
   if (!newest_) return {};
   const bool old = newest_->stamp != Time() && std::chrono::abs(now - newest_->stamp) > kOldestTransform;
-  return old ? std::nullopt : std::optional(newest_->R_WD);
+  return old ? std::nullopt : std::optional(newest_->value);
 }
 
 std::string DeviceAxes::problem() const {
@@ -31,14 +31,14 @@ std::string DeviceAxes::problem() const {
 }
 
 void DeviceAxes::lookUp() {
-  std::optional<Looked> looked;
+  std::optional<sweep_guard_core::StampedValue<Eigen::Matrix3d>> found;
   try {
     const std::optional<Time> stamp = frames_.newest(fixed_frame_, device_frame_);
-    if (stamp) looked = Looked{frames_.lookup(fixed_frame_, device_frame_, *stamp).linear(), *stamp};
+    if (stamp) found = {*stamp, frames_.lookup(fixed_frame_, device_frame_, *stamp).linear()};
   } catch (const FrameError&) {  // problem() tells it
   }
   const std::lock_guard lock(mutex_);
-  newest_ = looked;
+  newest_ = found;
 }
 
 }  // namespace sweep_guard_ros

@@ -8,6 +8,7 @@
 
 #include "ros/input/frames.h"
 #include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/common/stamped_pose.h"
 
 namespace sweep_guard_ros {
 
@@ -23,18 +24,13 @@ class DeviceAxes {
   std::string problem() const;  ///< why it is not known; empty: it is. Looks it up itself
 
  private:
-  struct Looked {
-    Eigen::Matrix3d R_WD;
-    sweep_guard_core::Time stamp;  // 0: it never changes
-  };
-
   void lookUp();
 
   const Frames& frames_;
   const std::string fixed_frame_;
   const std::string device_frame_;
   mutable sweep_guard_core::PriorityMutex mutex_;
-  std::optional<Looked> newest_;
+  std::optional<sweep_guard_core::StampedValue<Eigen::Matrix3d>> newest_;  // R_WD; stamp 0: it never changes
   const std::shared_ptr<void> transforms_changed_;
 };
 

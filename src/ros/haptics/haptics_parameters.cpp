@@ -44,8 +44,8 @@ void readContact(ParameterReader& read, ForceOptions& force) {
 
 void readDevice(ParameterReader& read, HapticsParameters& parameters) {
   ForceOptions& force = parameters.force;
-  force.position_scale =
-      read.number("position_scale", force.position_scale, {1e-3, 1e3}, "Way of the tool for a way of the device.");
+  force.position_scale = read.number("position_scale", force.position_scale, {1e-3, 1e3},
+                                     "Displacement of the tool per displacement of the device.");
   force.force_scale = read.number("force_scale", force.force_scale, {1e-3, 1e3},
                                   "Force at the device for a force on the tool; a torque is scaled by force_scale / "
                                   "position_scale.");

@@ -53,9 +53,9 @@ class ArticulatedTool {
   std::string silence(sweep_guard_core::Time now) const;
 
   using PoseOfFrame = std::function<std::optional<Eigen::Isometry3d>(sweep_guard_core::Time)>;
-  /// Moves what is known of the tool frame with a frame that is placed anew.
+  /// Moves the known poses of the tool frame with a frame whose static transform is replaced.
   /// @param X_WF   returns its pose at a time; empty: not known
-  /// @param place  places it anew
+  /// @param place  replaces it
   void placeAnew(const PoseOfFrame& X_WF, const std::function<void()>& place);
 
   void reset();  ///< forgets all positions

@@ -28,7 +28,7 @@ constexpr Duration kByTurns = std::chrono::milliseconds(1100);  // 1 s, and jitt
 constexpr Duration kShown = std::chrono::milliseconds(1500);
 constexpr size_t kMaxNodes = 4;      // of a frame
 constexpr size_t kMaxSamples = 256;  // of a node
-constexpr double kWay = 1e-3;        // [m]
+constexpr double kDistance = 1e-3;   // [m]
 constexpr double kTurn = 1e-3;       // [rad]
 
 // How much of a difference between two nodes may come from the straight motion between two samples of one.
@@ -38,8 +38,8 @@ struct Difference {
 };
 
 struct Speed {
-  Eigen::Vector3d way;   // [m/s]
-  Eigen::Vector3d turn;  // [rad/s]
+  Eigen::Vector3d translation;  // [m/s]
+  Eigen::Vector3d turn;         // [rad/s]
 };
 
 Speed speedBetween(const Transform& from, const Transform& to) {
@@ -57,7 +57,8 @@ std::optional<Moved> curvatureOf(const Samples& samples, size_t i) {
   const Speed beside =
       has_next ? speedBetween(samples[i], samples[i + 1]) : speedBetween(samples[i - 2], samples[i - 1]);
   const double period = toSeconds(samples[i].stamp - samples[i - 1].stamp);
-  return Moved{(beside.way - speed.way).norm() * period / 4.0, (beside.turn - speed.turn).norm() * period / 4.0};
+  return Moved{(beside.translation - speed.translation).norm() * period / 4.0,
+               (beside.turn - speed.turn).norm() * period / 4.0};
 }
 
 // Returns how far a node places the frame from where another one does at a stamp; empty: not known.
@@ -76,12 +77,12 @@ std::optional<Difference> differenceAt(const Transform& at, const Samples& sampl
 
 bool differs(const Difference& difference) {
   const auto& [apart, curvature] = difference;
-  return apart.way > kWay + curvature.way || apart.turn > kTurn + curvature.turn;
+  return apart.distance > kDistance + curvature.distance || apart.turn > kTurn + curvature.turn;
 }
 
 std::string inWords(const Moved& apart) {
   char text[64];
-  std::snprintf(text, sizeof text, ", which are %.1f mm and %.1f mrad apart", 1e3 * apart.way, 1e3 * apart.turn);
+  std::snprintf(text, sizeof text, ", which are %.1f mm and %.1f mrad apart", 1e3 * apart.distance, 1e3 * apart.turn);
   return text;
 }
 

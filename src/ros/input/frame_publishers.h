@@ -14,8 +14,8 @@
 
 namespace sweep_guard_ros {
 
-/// Finds frames that several nodes publish by turns and place differently: whoever looks one up gets a mixture of both, at places
-/// where nothing is. Knows frames by the transforms to them that change; those that never change are no matter of turns.
+/// Finds frames that several nodes publish in turn at different places: a lookup mixes both, and gives places where
+/// nothing is. Only transforms that change count; static ones are left out.
 ///
 /// Nodes that place a frame alike may share it, and one may take it over from another: node A has to publish, then node B, then A
 /// again within about 1 s, and both have to be apart by more than 1 mm or 1 mrad at one stamp.

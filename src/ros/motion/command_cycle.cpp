@@ -89,7 +89,7 @@ bool CommandCycle::letsThrough(const Instant& at) const {
   return guard_.permission(takeInputs(newest), {at.stamp, at.steady}, at).permission != Permission::kStop;
 }
 
-// A command that is late is limited anew at the next tick.
+// A command that is late is limited again at the next tick.
 sweep_guard_core::Duration CommandCycle::longestInForce() const {
   const sweep_guard_core::Duration longest = period_.longest();
   return port_->isPose() ? longest

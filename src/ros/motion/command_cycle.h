@@ -30,9 +30,9 @@ struct CommandCycleSources {
   const HoldPublisher& hold;
 };
 
-/// Sends what is let through of each command, in the thread that receives it. Between commands, tick() has the newest one
-/// limited anew if it is late or may not be let through any more; when the commands stop, it sends zeros. After a stop, a
-/// stamped twist goes on once HoldPublisher was heard; until then the status stays.
+/// Sends what is let through of each command, in the thread that receives it. Between commands, tick() limits the
+/// newest one again if it is late or may no longer be let through; when the commands stop, it sends zeros. After a
+/// stop, a stamped twist goes on once HoldPublisher was heard; until then the status stays.
 class CommandCycle {
  public:
   CommandCycle(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const MotionParameters& parameters,

@@ -18,6 +18,7 @@ using sweep_guard_core::Duration;
 using sweep_guard_core::GuardedMotion;
 using sweep_guard_core::MotionCommand;
 using sweep_guard_core::MotionInputs;
+using sweep_guard_core::Moved;
 using sweep_guard_core::Permission;
 using sweep_guard_core::Time;
 using sweep_guard_core::Timestamps;
@@ -179,10 +180,10 @@ class PosePort : public TypedPort<geometry_msgs::PoseStamped> {
   void pause() override { follower_.end(); }
   void rebase() override { follower_.rebase(); }
 
-  std::optional<Lead> standingLead() const override {
+  std::optional<Moved> standingLead() const override {
     if (!follower_.waits()) return {};
     const Eigen::Isometry3d X_TS = follower_.tool()->inverse() * follower_.sent();
-    return Lead{X_TS.translation().norm(), Eigen::AngleAxisd(X_TS.linear()).angle()};
+    return Moved{X_TS.translation().norm(), Eigen::AngleAxisd(X_TS.linear()).angle()};
   }
 
  private:

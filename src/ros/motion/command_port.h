@@ -11,6 +11,7 @@
 #include "ros/motion/command_frames.h"
 #include "ros/motion/motion_parameters.h"
 #include "sweep_guard/motion/motion_guard.h"
+#include "sweep_guard/prediction/jump.h"
 
 namespace sweep_guard_ros {
 
@@ -53,12 +54,8 @@ class CommandPort {
   virtual void pause() {}   ///< nothing is sent for a while
   virtual void rebase() {}  ///< see PoseFollower::rebase()
 
-  /// How far the pose sent last is ahead of a tool that does not follow it.
-  struct Lead {
-    double way;   ///< [m]
-    double turn;  ///< [rad]
-  };
-  virtual std::optional<Lead> standingLead() const { return {}; }  ///< empty: it follows, or no poses are sent
+  /// Returns how far the pose sent last is ahead of a tool that does not follow it; empty: it follows, or no poses are sent.
+  virtual std::optional<sweep_guard_core::Moved> standingLead() const { return {}; }
 
   virtual std::string commandTopic() const = 0;
   virtual std::uint32_t commandPublishers() const = 0;

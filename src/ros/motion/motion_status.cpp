@@ -11,6 +11,7 @@ namespace {
 
 using sweep_guard::MotionStatus;
 using sweep_guard_core::GuardedMotion;
+using sweep_guard_core::Moved;
 using sweep_guard_core::Permission;
 using sweep_guard_core::PermissionCause;
 using sweep_guard_core::printable;
@@ -48,13 +49,13 @@ std::string textOf(const MotionStatus& status, Permission permission) {
 }
 
 // It is not the surfaces that limit the command.
-void sayThatItStands(const CommandPort::Lead& lead, MotionStatus& status) {
+void sayThatItStands(const Moved& lead, MotionStatus& status) {
   const bool waits = !(status.sent_speed > 0.0);
   status.code = waits ? MotionStatus::HALT_FOR_COLLISION : MotionStatus::DECELERATE_FOR_COLLISION;
   if (waits) status.scale = 0.0;
   status.cause = "the tool does not follow";
   char ahead[96];
-  std::snprintf(ahead, sizeof ahead, ": the pose sent waits %.1f mm and %.1f degrees ahead of it", 1e3 * lead.way,
+  std::snprintf(ahead, sizeof ahead, ": the pose sent waits %.1f mm and %.1f degrees ahead of it", 1e3 * lead.distance,
                 lead.turn * 180.0 / M_PI);
   status.text = status.cause + ahead;
 }
@@ -62,7 +63,7 @@ void sayThatItStands(const CommandPort::Lead& lead, MotionStatus& status) {
 }  // namespace
 
 MotionStatus statusOf(const GuardedMotion& motion, const sweep_guard::Proximity* planes,
-                      const std::optional<CommandPort::Lead>& lead) {
+                      const std::optional<Moved>& lead) {
   MotionStatus status = emptyStatus();
   status.code = codeOf(motion);
   status.cause = sweep_guard_core::textOf(motion.decision.cause);

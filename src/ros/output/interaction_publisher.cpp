@@ -52,7 +52,7 @@ void InteractionPublisher::swept(const sweep_guard_core::PoseWithFrames& pose,
   const auto parameters = parameters_.get();
   if (publisher_.getNumSubscribers() == 0) return reset();
   const InStage computing(Stage::kInteraction);
-  finder_.find({pose, workpieces, parameters->interaction}, interaction_);
+  finder_.find(pose, workpieces, parameters->interaction, interaction_);
   const InStage publishing(Stage::kPublish);
   const auto message = boost::make_shared<sweep_guard::Interaction>();
   message->header.stamp = toMsg(pose.stamp);

@@ -45,7 +45,7 @@ struct Parameters {
   std::string tool_description;             ///< shape and source of the tool, for people
   sweep_guard_core::DetectorChoice detector;  ///< as configured, until it is replaced by one that is available
   SelfTest self_test;
-  int cross_check;  ///< of so many queries of the detector, one is asked twice; 0: none
+  int cross_check;  ///< one query of the detector out of this many is asked twice; 0: none
   sweep_guard_core::GuardOptions guard;
   sweep_guard_core::WarningLimits limits;
   double acknowledge_distance;  ///< [m]
@@ -76,7 +76,7 @@ std::shared_ptr<const sweep_guard_core::Robot> articulatedRobot(const Parameters
 ///     the robot description makes no tool
 Parameters loadParameters(const ros::NodeHandle& private_node);
 
-/// Refuses to start with the defaults alone in place of a configuration: a master that was started anew has lost it.
+/// Refuses to start with the defaults alone in place of a configuration: a master that was restarted has lost it.
 /// @param arguments  of the command line. The launch files give `--configured`; without it, nothing is checked
 /// @throws sweep_guard_core::InvalidInput if there is no private parameter
 void checkConfigured(const ros::NodeHandle& private_node, const std::vector<std::string>& arguments);

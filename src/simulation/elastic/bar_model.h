@@ -24,7 +24,7 @@ struct BarStructure {
   std::vector<bool> fixed;     ///< nodes that do not move
   std::vector<Bar> bars;
 
-  /// Makes nodes without masses, springs or bars, that all may move.
+  /// Makes nodes without masses, springs or bars; all of them may move.
   explicit BarStructure(Eigen::MatrixX3d nodes);
 };
 
@@ -36,17 +36,17 @@ struct Pressure {
   double stiffness;         ///< growth of the force per outward displacement of the node [N/m], > 0
 };
 
-/// Moves a structure of bars by implicit Euler steps. The bars are as stiff as they are at any length and direction:
-/// large turns and strains are included, inertia and buckling, too. A step minimizes
+/// Moves a structure of bars by implicit Euler steps. The stiffness of a bar does not depend on its length or
+/// direction, so large rotations and strains, inertia and buckling are included. A step minimizes
 ///   sum m |x - x_0 - h v_0|^2 / 2 h^2 + sum k (|x_a - x_b| - l)^2 / 2 - f . x
-/// by a local/global method [Liu et al. 2013]: the bars choose their directions, then one linear system, factorized
-/// once, gives all positions, in turns. Each turn decreases the sum.
+/// by a local/global method [Liu et al. 2013]: alternates between the directions of the bars and one linear
+/// system, factorized once, for all positions. Each iteration decreases the sum.
 class BarModel {
  public:
   struct Options {
     double step = 1.0 / 60.0;  ///< h [s], > 0; infinity: each step finds the equilibrium, without masses
     double damping = 0.0;      ///< share of the velocity that is lost per time, besides that of the method [1/s], >= 0
-    int iterations = 5;        ///< turns per step, >= 1
+    int iterations = 5;        ///< per step, >= 1
   };
 
   /// @throws sweep_guard_core::InvalidInput if a part of the structure is not held, or an option or a bar is out of

@@ -12,7 +12,7 @@
 
 namespace sweep_guard_simulation {
 
-/// Workpiece that gives way to a tool, in its frame M: a BarModel of a mesh, pressed by the interaction force of each
+/// A workpiece that yields to a tool, in its frame M: a BarModel of a mesh, pressed by the interaction force of each
 /// convex piece of the tool (interaction/interaction_force.h).
 class ElasticWorkpiece {
  public:

@@ -10,7 +10,7 @@
 namespace sweep_guard_simulation {
 
 /// A convex piece of a tool that presses on the vertices of a mesh. The sum of the pressures is the interaction force.
-/// As that of an elastic layer, the pressure at a point of the surface is in proportion to its depth in the piece,
+/// As with an elastic layer, the pressure at a point of the surface is proportional to its depth in the piece, measured
 /// against the force; it is summed over points of the triangles and shared between their corners.
 class PressingPiece {
  public:

@@ -10,11 +10,8 @@
 namespace sweep_guard_ros {
 
 /// Holds the surface of a mesh file, in the unit of its numbers; a DAE file, which names its unit, in meters. Keeps
-/// the axes of the file and ignores the up direction that it declares.
-struct MeshSurface {
-  std::vector<Eigen::Vector3d> vertices;              ///< finite
-  std::vector<sweep_guard_core::Triangle> triangles;  ///< at least one, every index below vertices.size()
-};
+/// the axes of the file and ignores the up direction that it declares. Vertices are finite, and there is a triangle.
+using MeshSurface = sweep_guard_core::TriangleSurface;
 
 /// Returns the file of a mesh in a URDF: `package://NAME/PATH` or `file:///PATH`. A package's folder is the one that
 /// rospack knows, or else the folder NAME in an entry of ROS_PACKAGE_PATH. Follows symbolic links. The result must be
