@@ -28,9 +28,9 @@ const std::vector<AllowedAllocation> kAllowed = {
     {"MeshVertices", false, 4.0, "jobs for the thread that stores: messages wait there, bounded in bytes"},
     {"MovingFrames::", true, 1.1, "where the frames of the workpieces are, for the guard's thread"},
     {"tf2::BufferCore::getLatestCommonTime", false, 1.1, "tf2 looks for the newest time at which a frame is known"},
-    {"WorkpieceStore::snapshot < sweep_guard_ros::GuardThread::sweep", true, 1.1,
+    {"WorkpieceStore::snapshot < sweep_guard_ros::GuardSteps::sweep", true, 1.1,
      "the list of the workpieces: the store goes on meanwhile"},
-    {"WorkpieceStore::snapshot < sweep_guard_ros::GuardThread::predict", true, 1.1, "the same for a prediction"},
+    {"WorkpieceStore::snapshot < sweep_guard_ros::GuardSteps::beginPrediction", true, 1.1, "the same for a prediction"},
 };
 
 // The messages of the guard, received by this process.

@@ -1,84 +1,19 @@
 #pragma once
 
-#include <boost/shared_ptr.hpp>
 #include <functional>
 #include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <string>
 #include <thread>
-#include <vector>
 
-#include "common/pool.h"
-#include "guard/cross_check.h"
-#include "guard/intention_store.h"
 #include "guard/prediction_pace.h"
-#include "guard/workpiece_store.h"
-#include "monitor/sweep_statistics.h"
 #include "monitor/work_queue.h"
-#include "ros/guard/acknowledgements.h"
-#include "ros/output/bodies_publisher.h"
-#include "ros/output/interaction_publisher.h"
-#include "ros/output/proximity_publisher.h"
-#include "ros/output/result_publisher.h"
-#include "ros/output/scene_publisher.h"
-#include "ros/output/touches_publisher.h"
-#include "ros/output/warning_publisher.h"
-#include "ros/parameters/parameters.h"
-#include "ros/process/log_throttle.h"
-#include "ros/service/predict.h"
+#include "ros/guard/guard_steps.h"
 #include "ros/threads/supervisor.h"
-#include "sweep_guard/guard/frame_motion.h"
-#include "sweep_guard/guard/guard.h"
-#include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {
-
-/// What the publishers need of another tool.
-struct ToolShapes {
-  /// Any thread. Takes seconds for ten thousand corners.
-  explicit ToolShapes(const Parameters& parameters);
-
-  sweep_guard_core::InterpenetrationFinders pieces;
-  boost::shared_ptr<sweep_guard::ToolSurface> surface;
-};
-
-/// Publishes what is known of the tool beside warnings, at every swept pose. One thread.
-struct ToolPublishers {
-  ToolPublishers(const ros::NodeHandle& private_node, const LiveParameters& parameters,
-                 const sweep_guard_core::WarningMonitor& monitor);
-
-  /// Exchanges the tool.
-  /// @param shapes  of the same parameters; those before when it returns
-  void setTool(const Parameters& parameters, ToolShapes& shapes);
-
-  void reset();  ///< forgets all motion
-
-  ProximityPublisher proximity;
-  InteractionPublisher interaction;
-  BodiesPublisher bodies;
-};
-
-struct GuardThreadDependencies {
-  LiveParameters& parameters;
-  const sweep_guard_core::WorkpieceStore& workpieces;
-  sweep_guard_core::WarningMonitor& monitor;
-  sweep_guard_core::SweepStatistics& statistics;
-  sweep_guard_core::WorkQueue& queue;
-  WarningPublisher& warnings;
-  ScenePublisher& scene;
-  TouchesPublisher& touches;
-  sweep_guard_core::QuerySampler& sampler;
-  sweep_guard_core::IntentionStore& intentions;
-  sweep_guard_core::FrameMotionStore* frame_motions = nullptr;  ///< of frames that move on their own; null: none does
-  std::function<std::unique_ptr<sweep_guard_core::Detector>(const Parameters&)> make_detector =
-      [](const Parameters& wanted) { return makeDetector(wanted.detector.name, wanted.detector.options); };
-  std::function<ToolShapes(const Parameters&)> make_shapes = [](const Parameters& wanted) {
-    return ToolShapes(wanted);
-  };
-};
 
 /// Runs the guard in one thread: sweeps every queued pose, sweeps a backlog of poses as one motion, predicts from the
 /// newest pose, and runs the queued tasks between two sweeps. A pose that comes during a prediction is swept between two
@@ -126,63 +61,28 @@ class GuardThread {
 
  private:
   sweep_guard_core::GuardChange changeTo(const Parameters& next, const Parameters& before);
-  void forget();
-  void resetMotion();
-  const sweep_guard_core::QueuedPose& freshPose() const;
+  void runInTime(const std::function<void()>& task, const std::string& otherwise);
+  void setPriority() const;
   void run();
   bool workOnce();
-  void setPriority() const;
-  void runInTime(const std::function<void()>& task, const std::string& otherwise);
   bool sweepPoses();
-  bool sweepOrRepeat();
-  void sweepNext();
-  bool sweepWaiting();
+  bool sweepNext();
+  void takeNext();
   bool takeMore();
-  bool process(sweep_guard_core::QueuedPose& queued, const sweep_guard_core::QueuedPose* next);
-  sweep_guard_core::Time follow(sweep_guard_core::PoseWithFrames& pose);
-  void forgetFrames();
-  void pass(const sweep_guard_core::PoseWithFrames& pose);
-  void sweep(const sweep_guard_core::QueuedPose& queued);
-  void sweepOn();
-  void beginSweep(const sweep_guard_core::QueuedPose& queued, const sweep_guard_core::Workpieces& workpieces);
-  void warn(const sweep_guard_core::SweepReport& report, const sweep_guard_core::QueuedPose& queued);
-  void predict();
-  void predictInterrupted(sweep_guard_core::Duration age, const sweep_guard_core::Workpieces& workpieces,
-                          sweep_guard_core::Prediction& prediction, sweep_guard_core::Duration& interrupted);
-  bool mayPredict() const;
   bool timeToPredict() const;
   std::optional<sweep_guard_core::SteadyTime> latestPrediction() const;
-  void reportFailures(const std::vector<sweep_guard_core::SweepFailure>& failures);
-  PredictService::Motion motion(sweep_guard_core::Duration horizon) const;
+  void predict();
+  bool sweepWaiting();
 
   const GuardThreadDependencies dependencies_;
-  const ResultPublisher results_;
-  ToolPublishers tool_;      // after the start, used by the thread only
   std::mutex change_mutex_;  // one change of the guard at a time
 
-  // Used by the thread only:
+  // After the start, used by the thread only:
+  GuardSteps steps_;
   sweep_guard_core::WorkQueue::Work work_;
-  size_t next_ = 0;  // of work_.poses: those before it are done
-  sweep_guard_core::Guard guard_;
-  Acknowledgements acknowledgements_;
-  sweep_guard_core::WarningMonitor::Checkpoint checkpoint_;  // of the newest pose in the guard
-  std::optional<sweep_guard_core::QueuedPose> swept_;        // newest swept pose
-  bool prediction_due_ = false;                              // from that pose
-  sweep_guard_core::QueuedPose predicted_from_;              // newest swept pose at the last prediction
-  sweep_guard_core::Workpieces predicted_with_;              // at the last prediction
-  bool triangles_are_new_ = false;                           // there were others at the last prediction
-  std::vector<sweep_guard_core::SteadyTime> passed_;         // when the poses passed since then were received
-  struct {
-    bool any = false;
-    std::set<std::string> frames = {};
-  } placed_anew_;                                                 // since then
-  sweep_guard_core::SteadyTime predicted_at_;                     // time of the newest prediction
-  std::shared_ptr<const sweep_guard_core::FrameMotions> frames_;  // at the newest sweep or prediction
-  sweep_guard_core::Time frames_known_to_;  // all that are followed, at the newest sweep; at most its pose
+  size_t next_ = 0;                            // of work_.poses: those before it are done
+  sweep_guard_core::SteadyTime predicted_at_;  // time of the newest prediction
   sweep_guard_core::PredictionPace pace_;
-  sweep_guard_core::Pool<sweep_guard_core::SweepReport> reports_;
-  sweep_guard_core::Pool<sweep_guard_core::Prediction> predictions_;
-  LogThrottle log_;
   ThreadTop* top_ = nullptr;
   std::thread thread_;
 };

@@ -11,6 +11,18 @@ void ThreadTop::enter() {
   thread_.emplace();
 }
 
+void ThreadTop::caught() noexcept {
+  try {
+    throw;
+  } catch (const std::exception& error) {
+    failed(error.what());
+  } catch (const PassesRoscpp& error) {
+    failed(error.what);
+  } catch (...) {
+    failed("unknown exception");
+  }
+}
+
 void ThreadTop::failed(const char* what) noexcept { supervisor_.failed(traits_, what); }
 
 }  // namespace sweep_guard_ros

@@ -32,16 +32,31 @@ class ThreadTop {
 
   void enter();  ///< called by the thread first: names it
 
-  /// Runs a piece of work of this thread. The supervisor hears of exceptions.
-  /// @param allowance  time that the work may take beyond the usual limit before it counts as hung
+  /// A piece of work of this thread, while it lives. What the work throws is for caught().
+  class Piece {
+   public:
+    /// @param allowance  time that the work may take beyond the usual limit before it counts as hung
+    explicit Piece(ThreadTop& top, sweep_guard_core::Duration allowance = {}) : top_(top) {
+      top.allowance_ = allowance;
+      top.heartbeat_.begin();
+      top.stage_clock_.begin(top.traits_.stage);
+    }
+    ~Piece() {
+      top_.stage_clock_.end();
+      top_.heartbeat_.end();
+    }
+    Piece(const Piece&) = delete;
+    Piece& operator=(const Piece&) = delete;
+
+   private:
+    ThreadTop& top_;
+  };
+
+  /// Runs a piece of work. The supervisor hears of exceptions.
   template <typename Work>
   void run(const Work& work, sweep_guard_core::Duration allowance = {}) noexcept {
-    allowance_ = allowance;
-    heartbeat_.begin();
-    stage_clock_.begin(traits_.stage);
+    const Piece piece(*this, allowance);
     attempt(work);
-    stage_clock_.end();
-    heartbeat_.end();
   }
 
   /// Runs a part of a piece of work that must not end the rest.
@@ -49,14 +64,13 @@ class ThreadTop {
   void attempt(const Work& work) noexcept {
     try {
       work();
-    } catch (const std::exception& error) {
-      failed(error.what());
-    } catch (const PassesRoscpp& error) {
-      failed(error.what);
     } catch (...) {
-      failed("unknown exception");
+      caught();
     }
   }
+
+  /// Tells the supervisor of the exception that is being handled.
+  void caught() noexcept;
 
   const ThreadTraits& traits() const { return traits_; }
   sweep_guard_core::Heartbeat::Reading heartbeat() const { return heartbeat_.read(); }

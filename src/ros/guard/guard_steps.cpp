@@ -1,0 +1,307 @@
+#include "ros/guard/guard_steps.h"
+
+#include <ros/console.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "common/heartbeat.h"
+#include "ros/guard/detector_test.h"
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard_core::Duration;
+using sweep_guard_core::Error;
+using sweep_guard_core::Instant;
+using sweep_guard_core::PredictionInterval;
+using sweep_guard_core::SteadyTime;
+using sweep_guard_core::Timestamps;
+
+constexpr Duration kSilent = std::chrono::seconds(4);  // of a frame: others do not wait for it
+
+// A passed pose is swept as a part of the motion to the next one.
+bool knowsAllFramesOf(const sweep_guard_core::QueuedPose& queued, const sweep_guard_core::QueuedPose& next) {
+  const auto& frames = queued.pose.X_WM;
+  return std::all_of(frames.begin(), frames.end(),
+                     [&](const auto& frame) { return next.pose.X_WM.count(frame.first) != 0; });
+}
+
+// Of deformations they are the same.
+bool haveSameTriangles(const sweep_guard_core::Workpieces& some, const sweep_guard_core::Workpieces& others) {
+  return std::equal(some.begin(), some.end(), others.begin(), others.end(), [](const auto& one, const auto& other) {
+    return &one->mesh_M.triangles() == &other->mesh_M.triangles() && one->frame == other->frame;
+  });
+}
+
+std::unique_ptr<sweep_guard_core::Detector> firstDetector(const GuardThreadDependencies& dependencies) {
+  const Parameters& parameters = dependencies.parameters.initial();
+  auto detector = dependencies.make_detector(parameters);
+  const std::string failure = testFailure(parameters, describe(parameters.detector), *detector);
+  if (!failure.empty() && parameters.self_test == SelfTest::kExit) throw sweep_guard_core::DeviceError(failure);
+  if (!failure.empty()) ROS_ERROR("%s", failure.c_str());
+  dependencies.monitor.detectorTested(failure);
+  return sampled(std::move(detector), parameters.detector.name, dependencies.sampler);
+}
+
+sweep_guard_core::Guard guardOf(const Parameters& parameters, std::unique_ptr<sweep_guard_core::Detector> detector) {
+  if (parameters.articulated) return {articulatedRobot(parameters), std::move(detector), parameters.guard};
+  return {*parameters.tool, std::move(detector), parameters.guard};
+}
+
+Timestamps timestampsOf(const sweep_guard_core::PoseWithFrames& pose) { return {pose.stamp, pose.received}; }
+
+sweep_guard_core::StampedPose stampedPoseOf(const sweep_guard_core::PoseWithFrames& pose) {
+  return {pose.stamp, pose.X_WT};
+}
+
+// Of queries about what the tool will do.
+sweep_guard_core::QueryOrigin predictedFrom(const sweep_guard_core::PoseWithFrames& pose, std::uint64_t epoch) {
+  return {/*measured=*/false, epoch, stampedPoseOf(pose), stampedPoseOf(pose)};
+}
+
+Duration ageOf(const Timestamps& pose, const Instant& at) { return std::max(age(pose, at), Duration::zero()); }
+
+}  // namespace
+
+ToolShapes::ToolShapes(const Parameters& parameters)
+    : pieces(sweep_guard_core::interpenetrationFinders(*parameters.bodies)), surface(surfaceMsg(parameters)) {}
+
+ToolPublishers::ToolPublishers(const ros::NodeHandle& private_node, const LiveParameters& parameters,
+                               const sweep_guard_core::WarningMonitor& monitor)
+    : proximity(private_node, parameters, monitor),
+      interaction(private_node, parameters, monitor),
+      bodies(private_node, parameters) {}
+
+void ToolPublishers::setTool(const Parameters& parameters, ToolShapes& shapes) {
+  proximity.setTool(*parameters.tool);
+  interaction.exchange(shapes.pieces);
+  bodies.setTool(*parameters.bodies, shapes.surface);
+}
+
+void ToolPublishers::reset() {
+  proximity.reset();
+  interaction.reset();
+  bodies.reset();
+}
+
+GuardSteps::GuardSteps(const ros::NodeHandle& private_node, const GuardThreadDependencies& dependencies)
+    : dependencies_(dependencies),
+      results_(private_node, dependencies.parameters),
+      publishers_(private_node, dependencies.parameters, dependencies.monitor),
+      guard_(guardOf(dependencies.parameters.initial(), firstDetector(dependencies))),
+      acknowledgements_(dependencies.parameters, dependencies.monitor, dependencies.sampler, guard_) {}
+
+GuardSteps::Done GuardSteps::take(sweep_guard_core::QueuedPose& queued, const sweep_guard_core::QueuedPose* next) {
+  if (!dependencies_.monitor.isToBeSwept(queued.checkpoint)) return Done::kNothing;
+  if (!queued.checkpoint.continues(checkpoint_)) resetMotion();
+  checkpoint_ = queued.checkpoint;
+  const bool is_passed = queued.pose.anew || (next != nullptr && knowsAllFramesOf(queued, *next));
+  frames_known_to_ = follow(queued.pose);
+  if (is_passed) {
+    pass(queued.pose);
+    return Done::kPassed;
+  }
+  for (const std::string& frame : placed_anew_.frames) queued.pose.drifts.try_emplace(frame);
+  try {
+    sweep(queued);
+  } catch (...) {
+    guard_.takeBack();
+    throw;
+  }
+  placed_anew_ = {};
+  prediction_due_ = true;
+  return Done::kSwept;
+}
+
+// Returns the time up to which all frames that are followed are known, but for those that are silent: at most that of the pose.
+sweep_guard_core::Time GuardSteps::follow(sweep_guard_core::PoseWithFrames& pose) {
+  sweep_guard_core::Time known_to = pose.stamp;
+  if (dependencies_.frame_motions == nullptr) return known_to;
+  frames_ = dependencies_.frame_motions->get();
+  sweep_guard_core::placeFollowed(*frames_, pose);
+  guard_.follow(frames_);
+  for (const auto& [frame, motion] : *frames_) {
+    const sweep_guard_core::Time newest = motion->measured.back().stamp;
+    const bool counts = motion->goes_on && pose.stamp - newest < kSilent;
+    if (counts) known_to = std::min(known_to, newest);
+  }
+  return known_to;
+}
+
+// What is swept of frames is needed no more.
+void GuardSteps::forgetFrames() {
+  if (dependencies_.frame_motions != nullptr) dependencies_.frame_motions->forgetBefore(swept_->pose.stamp, *frames_);
+}
+
+void GuardSteps::pass(const sweep_guard_core::PoseWithFrames& pose) {
+  guard_.pass(pose);
+  if (pose.anew) {
+    placed_anew_.any = true;
+    placed_anew_.frames.insert(pose.anew->frames.begin(), pose.anew->frames.end());
+    if (pose.anew->tool) publishers_.bodies.reset();
+    return publishers_.interaction.reset();
+  }
+  publishers_.bodies.moved(pose);
+  passed_.push_back(pose.received);
+  dependencies_.scene.passed(pose);
+}
+
+void GuardSteps::sweep(const sweep_guard_core::QueuedPose& queued) {
+  const sweep_guard_core::PoseWithFrames& pose = queued.pose;
+  const SteadyTime begin = std::chrono::steady_clock::now();
+  const auto report = reports_.take();
+  const sweep_guard_core::Workpieces workpieces = dependencies_.workpieces.snapshot();
+  beginSweep(queued, workpieces);
+  guard_.sweep(pose, workpieces, *report);
+  const SteadyTime end = std::chrono::steady_clock::now();
+  triangles_are_new_ = !haveSameTriangles(workpieces, predicted_with_);
+  swept_ = queued;
+  warn(*report, queued);
+
+  const SteadyTime warned = std::chrono::steady_clock::now();
+  for (const SteadyTime received : passed_) dependencies_.statistics.swept(warned - received, {});
+  passed_.clear();
+  dependencies_.statistics.swept(warned - pose.received, end - begin);
+  reportFailures(report->failures);
+  dependencies_.scene.swept(pose, report);
+  if (dependencies_.monitor.counts(queued.checkpoint)) {  // otherwise time has jumped: nobody may move by these
+    top_->run([&] { publishers_.proximity.swept(pose, workpieces, *report, guard_); });
+    top_->run([&] { publishers_.interaction.swept(pose, workpieces, *report); });
+    top_->run([&] { publishers_.bodies.moved(pose); });
+  }
+  top_->run([&] { dependencies_.touches.swept(*report, workpieces); });
+  forgetFrames();
+}
+
+void GuardSteps::sweepOn() {
+  const bool is_newest = swept_ && passed_.empty() && !placed_anew_.any;
+  const bool waits = is_newest && frames_known_to_ < swept_->pose.stamp;
+  if (!waits || !dependencies_.monitor.counts(checkpoint_)) return;
+  frames_known_to_ = follow(swept_->pose);
+  const auto report = reports_.take();
+  const sweep_guard_core::Workpieces workpieces = dependencies_.workpieces.snapshot();
+  beginSweep(*swept_, workpieces);
+  try {
+    guard_.sweepOn(workpieces, *report);
+  } catch (...) {
+    guard_.takeBack();
+    throw;
+  }
+  warn(*report, *swept_);
+  reportFailures(report->failures);
+  dependencies_.scene.swept(swept_->pose, report);
+  top_->run([&] { dependencies_.touches.swept(*report, workpieces); });
+  forgetFrames();
+}
+
+void GuardSteps::beginSweep(const sweep_guard_core::QueuedPose& queued,
+                            const sweep_guard_core::Workpieces& workpieces) {
+  const sweep_guard_core::PoseWithFrames& before = swept_ ? swept_->pose : queued.pose;
+  dependencies_.sampler.setWorkpieces(
+      workpieces, {/*measured=*/true, queued.checkpoint.epoch, stampedPoseOf(before), stampedPoseOf(queued.pose)});
+  guard_.intend(dependencies_.intentions.at(std::chrono::steady_clock::now()));
+}
+
+void GuardSteps::warn(const sweep_guard_core::SweepReport& report, const sweep_guard_core::QueuedPose& queued) {
+  const SteadyTime swept = std::chrono::steady_clock::now();
+  sweep_guard_core::beat();
+  if (!report.objects.empty() || !report.replaced.empty()) results_.publish(report);
+  sweep_guard_core::beat();
+  dependencies_.monitor.swept(report, timestampsOf(queued.pose), queued.checkpoint, swept);
+  dependencies_.warnings.publishIfChanged();
+}
+
+void GuardSteps::reportFailures(const std::vector<sweep_guard_core::SweepFailure>& failures) {
+  if (!dependencies_.monitor.counts(checkpoint_)) return;  // given up
+  for (const sweep_guard_core::SweepFailure& failure : failures) {
+    dependencies_.statistics.fault("'" + failure.workpiece->id + "': " + failure.reason);
+    log_.error(failure.workpiece->id, "detection on '" + failure.workpiece->id + "' failed: " + failure.reason);
+  }
+}
+
+bool GuardSteps::choosePose(const Instant& now) {
+  prediction_due_ = false;
+  predicted_from_ = *swept_;
+  return !stale(timestampsOf(predicted_from_.pose), now, dependencies_.parameters.get()->limits.pose_timeout);
+}
+
+RunningPrediction GuardSteps::beginPrediction(const Instant& now, sweep_guard_core::PredictionPace& pace) {
+  predicted_with_ = dependencies_.workpieces.snapshot();
+  triangles_are_new_ = false;
+  guard_.intend(dependencies_.intentions.at(now.steady));
+  follow(predicted_from_.pose);
+  resumePrediction();
+  const Duration age = ageOf(timestampsOf(predicted_from_.pose), now);
+  const auto prediction = predictions_.take();
+  return {now, age, prediction, {pace, now.steady}, guard_.beginPrediction(age, predicted_with_, *prediction)};
+}
+
+void GuardSteps::resumePrediction() {
+  const auto& [pose, checkpoint] = predicted_from_;
+  dependencies_.sampler.setWorkpieces(predicted_with_, predictedFrom(pose, checkpoint.epoch));
+}
+
+void GuardSteps::endPrediction(const RunningPrediction& running) {
+  const auto& [pose, checkpoint] = predicted_from_;
+  const sweep_guard_core::Prediction& prediction = *running.prediction;
+  const Duration took = std::chrono::steady_clock::now() - running.begin.steady - running.charge.interrupted;
+  dependencies_.monitor.predicted(prediction, timestampsOf(pose), checkpoint, now(), took);
+  dependencies_.warnings.publishIfChanged();
+  sweep_guard_core::beat();
+  if (!dependencies_.monitor.counts(checkpoint)) return;  // another epoch has begun meanwhile
+  results_.publish(prediction, running.age);
+
+  const Duration considered = running.age + dependencies_.parameters.get()->limits.considered;
+  dependencies_.statistics.predicted({std::chrono::steady_clock::now() - pose.received, took, prediction.sweeps_made,
+                                      prediction.sweeps_asked,
+                                      prediction.coveredUntil() - prediction.stamp - running.age,
+                                      prediction.probability(PredictionInterval::kConsidered, considered)});
+  reportFailures(prediction.failures);
+  if (acknowledgements_.endWhereFar(predicted_with_, predictedFrom(pose, checkpoint_.epoch)))
+    dependencies_.warnings.publishIfChanged();
+  dependencies_.scene.predicted(pose, running.prediction);
+  publishers_.bodies.predicted(pose, prediction);
+}
+
+std::string GuardSteps::acknowledge(const std::string& id) {
+  const auto origin = predictedFrom(swept_.value_or(sweep_guard_core::QueuedPose()).pose, checkpoint_.epoch);
+  return acknowledgements_.add(id, dependencies_.workpieces.snapshot(), origin);
+}
+
+void GuardSteps::forget() {
+  dependencies_.monitor.restart();
+  resetMotion();
+  swept_.reset();
+  prediction_due_ = false;
+  dependencies_.scene.clear();
+}
+
+void GuardSteps::resetMotion() {
+  guard_.reset();
+  publishers_.reset();
+  passed_.clear();
+  placed_anew_ = {};
+}
+
+const sweep_guard_core::QueuedPose& GuardSteps::freshPose() const {
+  if (const auto asked_by = dependencies_.monitor.disabledBy()) throw Error("the guard is disabled by " + *asked_by);
+  if (!swept_ || !dependencies_.monitor.checkpoint().continues(checkpoint_)) throw Error("no tool pose yet");
+  if (stale(timestampsOf(swept_->pose), now(), dependencies_.parameters.get()->limits.pose_timeout)) {
+    throw Error("newest tool pose is stale: motion is unknown");
+  }
+  return *swept_;
+}
+
+PredictService::Motion GuardSteps::motion(Duration horizon) const {
+  const Instant at = now();
+  const Timestamps from = timestampsOf(freshPose().pose);
+  const Duration age = ageOf(from, at);
+  sweep_guard_core::PredictedMotion motion = guard_.predictMotion(age, horizon);
+  if (motion.path.empty()) throw Error("motion is not known yet: two tool poses in a row are needed");
+  return {std::move(motion), age};
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,168 @@
+#pragma once
+
+#include <boost/shared_ptr.hpp>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "common/pool.h"
+#include "guard/cross_check.h"
+#include "guard/intention_store.h"
+#include "guard/prediction_pace.h"
+#include "guard/workpiece_store.h"
+#include "monitor/sweep_statistics.h"
+#include "monitor/work_queue.h"
+#include "ros/guard/acknowledgements.h"
+#include "ros/output/bodies_publisher.h"
+#include "ros/output/interaction_publisher.h"
+#include "ros/output/proximity_publisher.h"
+#include "ros/output/result_publisher.h"
+#include "ros/output/scene_publisher.h"
+#include "ros/output/touches_publisher.h"
+#include "ros/output/warning_publisher.h"
+#include "ros/parameters/parameters.h"
+#include "ros/process/log_throttle.h"
+#include "ros/service/predict.h"
+#include "ros/threads/thread_top.h"
+#include "sweep_guard/guard/frame_motion.h"
+#include "sweep_guard/guard/guard.h"
+#include "sweep_guard/monitor/warning_monitor.h"
+
+namespace sweep_guard_ros {
+
+/// What the publishers need of another tool.
+struct ToolShapes {
+  /// Any thread. Takes seconds for ten thousand corners.
+  explicit ToolShapes(const Parameters& parameters);
+
+  sweep_guard_core::InterpenetrationFinders pieces;
+  boost::shared_ptr<sweep_guard::ToolSurface> surface;
+};
+
+/// Publishes what is known of the tool beside warnings, at every swept pose. One thread.
+struct ToolPublishers {
+  ToolPublishers(const ros::NodeHandle& private_node, const LiveParameters& parameters,
+                 const sweep_guard_core::WarningMonitor& monitor);
+
+  /// Exchanges the tool.
+  /// @param shapes  of the same parameters; those before when it returns
+  void setTool(const Parameters& parameters, ToolShapes& shapes);
+
+  void reset();  ///< forgets all motion
+
+  ProximityPublisher proximity;
+  InteractionPublisher interaction;
+  BodiesPublisher bodies;
+};
+
+struct GuardThreadDependencies {
+  LiveParameters& parameters;
+  const sweep_guard_core::WorkpieceStore& workpieces;
+  sweep_guard_core::WarningMonitor& monitor;
+  sweep_guard_core::SweepStatistics& statistics;
+  sweep_guard_core::WorkQueue& queue;
+  WarningPublisher& warnings;
+  ScenePublisher& scene;
+  TouchesPublisher& touches;
+  sweep_guard_core::QuerySampler& sampler;
+  sweep_guard_core::IntentionStore& intentions;
+  sweep_guard_core::FrameMotionStore* frame_motions = nullptr;  ///< of frames that move on their own; null: none does
+  std::function<std::unique_ptr<sweep_guard_core::Detector>(const Parameters&)> make_detector =
+      [](const Parameters& wanted) { return makeDetector(wanted.detector.name, wanted.detector.options); };
+  std::function<ToolShapes(const Parameters&)> make_shapes = [](const Parameters& wanted) {
+    return ToolShapes(wanted);
+  };
+};
+
+/// A prediction under way, see GuardSteps::beginPrediction().
+struct RunningPrediction {
+  sweep_guard_core::Instant begin;
+  sweep_guard_core::Duration age;  ///< of the pose that it begins at
+  std::shared_ptr<sweep_guard_core::Prediction> prediction;
+  sweep_guard_core::PredictionPace::Charge charge;
+  sweep_guard_core::PredictionRun run;
+};
+
+/// The steps that the guard's thread makes: the sweep to a pose, the sweep to a frame that is known further, a prediction.
+/// Each tells the monitor, the statistics and the publishers what it found. Used by that thread only, but for the constructor
+/// and Guard::stop().
+class GuardSteps {
+ public:
+  /// @throws sweep_guard_core::InvalidInput if a parameter is refused
+  /// @throws sweep_guard_core::DeviceError if the detector cannot be created
+  GuardSteps(const ros::NodeHandle& private_node, const GuardThreadDependencies& dependencies);
+
+  sweep_guard_core::Guard& guard() { return guard_; }
+  ToolPublishers& publishers() { return publishers_; }
+
+  /// Sets what catches failures of the publishers: they do not keep a pose from being swept.
+  void setTop(ThreadTop& top) { top_ = &top; }
+
+  enum class Done { kNothing, kPassed, kSwept };
+  /// Sweeps to a pose, or passes it: it is then part of the motion to the next one. Does nothing with a pose from before a
+  /// restart. What throws leaves the pose to be taken again.
+  /// @param next  pose that waits behind it; null: none does
+  Done take(sweep_guard_core::QueuedPose& queued, const sweep_guard_core::QueuedPose* next);
+  /// Sweeps against what is known further of frames, up to the newest pose. If it fails, the next sweep makes up for it.
+  void sweepOn();
+
+  /// Returns whether a prediction may begin at the newest pose: it is swept, and no pose has passed since.
+  bool mayPredict() const { return prediction_due_ && passed_.empty(); }
+  /// Returns whether the workpieces have other triangles than at the last prediction.
+  bool trianglesAreNew() const { return triangles_are_new_; }
+  /// Chooses the newest pose for a prediction. Returns whether it is fresh; if not, none may begin.
+  bool choosePose(const sweep_guard_core::Instant& now);
+  /// Begins a prediction from the chosen pose. Between its steps, take() may be called, and resumePrediction() after that.
+  RunningPrediction beginPrediction(const sweep_guard_core::Instant& now, sweep_guard_core::PredictionPace& pace);
+  void resumePrediction();
+  void endPrediction(const RunningPrediction& running);
+
+  void forget();  ///< begins a new epoch; keeps the workpieces and what the predictor has learned
+
+  /// Returns the newest swept pose.
+  /// @throws sweep_guard_core::Error if there is none, or it is stale
+  const sweep_guard_core::QueuedPose& freshPose() const;
+  /// Predicts the motion up to a horizon counted from now.
+  /// @throws sweep_guard_core::Error as freshPose(), and if no motion is known
+  PredictService::Motion motion(sweep_guard_core::Duration horizon) const;
+  /// Acknowledges the warning of a workpiece; see GuardThread.
+  std::string acknowledge(const std::string& id);
+
+ private:
+  void resetMotion();
+  sweep_guard_core::Time follow(sweep_guard_core::PoseWithFrames& pose);
+  void forgetFrames();
+  void pass(const sweep_guard_core::PoseWithFrames& pose);
+  void sweep(const sweep_guard_core::QueuedPose& queued);
+  void beginSweep(const sweep_guard_core::QueuedPose& queued, const sweep_guard_core::Workpieces& workpieces);
+  void warn(const sweep_guard_core::SweepReport& report, const sweep_guard_core::QueuedPose& queued);
+  void reportFailures(const std::vector<sweep_guard_core::SweepFailure>& failures);
+
+  const GuardThreadDependencies dependencies_;
+  const ResultPublisher results_;
+  ToolPublishers publishers_;
+  sweep_guard_core::Guard guard_;
+  Acknowledgements acknowledgements_;
+  ThreadTop* top_ = nullptr;
+  sweep_guard_core::WarningMonitor::Checkpoint checkpoint_;  // of the newest pose in the guard
+  std::optional<sweep_guard_core::QueuedPose> swept_;        // newest swept pose
+  bool prediction_due_ = false;                              // from that pose
+  sweep_guard_core::QueuedPose predicted_from_;              // newest swept pose at the last prediction
+  sweep_guard_core::Workpieces predicted_with_;              // at the last prediction
+  bool triangles_are_new_ = false;                           // there were others at the last prediction
+  std::vector<sweep_guard_core::SteadyTime> passed_;         // when the poses passed since then were received
+  struct {
+    bool any = false;
+    std::set<std::string> frames = {};
+  } placed_anew_;                                                 // since then
+  std::shared_ptr<const sweep_guard_core::FrameMotions> frames_;  // at the newest sweep or prediction
+  sweep_guard_core::Time frames_known_to_;  // all that are followed, at the newest sweep; at most its pose
+  sweep_guard_core::Pool<sweep_guard_core::SweepReport> reports_;
+  sweep_guard_core::Pool<sweep_guard_core::Prediction> predictions_;
+  LogThrottle log_;
+};
+
+}  // namespace sweep_guard_ros
