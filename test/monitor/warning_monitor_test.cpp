@@ -726,8 +726,8 @@ TEST(DisablingTest, IsOneStepWithTheTestOfTheLevel) {
     guard.join();
     ASSERT_FALSE(disabled && counted) << "round " << round;
     disabled_first += disabled;
-    EXPECT_GT(disabled_first, 0);
-}
+  }
+  EXPECT_GT(disabled_first, 0);
 }
 
 TEST_F(WarningMonitorTest, IsNotDisabledFromALevelOn) {
