@@ -28,12 +28,12 @@ WarningMonitor::WarningMonitor(const WarningLimits& limits, std::function<void()
 WarningMonitor::~WarningMonitor() = default;
 
 void WarningMonitor::require(const std::set<std::string>& ids) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   inputs_.required.assign(ids.begin(), ids.end());
 }
 
 void WarningMonitor::requireTools(const std::vector<std::string>& names) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   inputs_.other_tools.clear();
   for (const std::string& name : names) inputs_.other_tools.push_back({name, {}, {}});
 }
@@ -45,7 +45,7 @@ WarningInputs::OtherTool* WarningMonitor::findTool(const std::string& name) {
 }
 
 void WarningMonitor::toolHeard(const std::string& name, const Timestamps& pose) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   WarningInputs::OtherTool* const tool = findTool(name);
   if (tool == nullptr) return;
   tool->newest = pose;
@@ -54,7 +54,7 @@ void WarningMonitor::toolHeard(const std::string& name, const Timestamps& pose) 
 
 void WarningMonitor::toolUnknown(const std::string& name, const std::string& problem) {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     WarningInputs::OtherTool* const tool = findTool(name);
     if (tool == nullptr) return;
     tool->problem = problem;
@@ -63,41 +63,41 @@ void WarningMonitor::toolUnknown(const std::string& name, const std::string& pro
 }
 
 std::vector<WarningInputs::OtherTool> WarningMonitor::otherTools() const {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return inputs_.other_tools;
 }
 
 void WarningMonitor::frameHeard(const std::string& frame, Time stamp, const Instant& now) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   late_frames_->add(frame, stamp, now, limits_.pose_timeout);
 }
 
 void WarningMonitor::setMovingFrames(const std::set<std::string>& frames) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   late_frames_->keepOnly(frames);
 }
 
 WarningMonitor::Checkpoint WarningMonitor::checkpoint() const {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return {epoch_, faults_->count()};
 }
 
 void WarningMonitor::fault(Reason reason, const std::string& message) {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     faults_->add(reason, message);
   }
   on_fault_();
 }
 
 void WarningMonitor::failed(Reason reason, const char* message, SteadyTime now, bool lasting) noexcept {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   faults_->addFailure(reason, message, now, lasting);
 }
 
 void WarningMonitor::meshRefused(const std::string& id, const std::string& message, SteadyTime received) {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     refused_meshes_->add(id, {message, received});
     faults_->set(kMeshInvalid, refusal());
   }
@@ -106,7 +106,7 @@ void WarningMonitor::meshRefused(const std::string& id, const std::string& messa
 
 void WarningMonitor::verticesRefused(const std::string& id, const std::string& message, SteadyTime received) {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     refused_vertices_->add(id, {message, received});
     faults_->set(kMeshInvalid, refusal());
   }
@@ -114,14 +114,14 @@ void WarningMonitor::verticesRefused(const std::string& id, const std::string& m
 }
 
 void WarningMonitor::meshAccepted(const std::string& id, SteadyTime received) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   refused_meshes_->accept(id, received);
   refused_vertices_->accept(id, received);
   faults_->set(kMeshInvalid, refusal());
 }
 
 void WarningMonitor::verticesAccepted(const std::string& id, SteadyTime received) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   refused_vertices_->accept(id, received);
   faults_->set(kMeshInvalid, refusal());
 }
@@ -133,7 +133,7 @@ std::string WarningMonitor::refusal(const std::vector<std::string>& ids) const {
 
 void WarningMonitor::meshUnread(const std::string& message, SteadyTime now) {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     inputs_.unread = WarningInputs::Event{message, now};
   }
   on_fault_();
@@ -141,7 +141,7 @@ void WarningMonitor::meshUnread(const std::string& message, SteadyTime now) {
 
 void WarningMonitor::updateDropped(const std::string& id, SteadyTime received) {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     if (!workpieces_->drop(id, received)) return;
   }
   on_fault_();
@@ -149,7 +149,7 @@ void WarningMonitor::updateDropped(const std::string& id, SteadyTime received) {
 
 void WarningMonitor::detectorTested(const std::string& failure) {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     const bool exchanged = failure.empty() && !faults_->get(kSelftest).empty();
     faults_->set(kSelftest, failure);
     if (exchanged) restartLocked();
@@ -159,7 +159,7 @@ void WarningMonitor::detectorTested(const std::string& failure) {
 
 void WarningMonitor::detectorsDisagree(const std::string& message, const SampledQuery& query,
                                        const std::vector<std::uint32_t>& missed, SteadyTime now) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   if (query.origin.epoch != epoch_) return;
   faults_->set(kCrosscheck, message);
   if (query.origin.measured && holds(workpieces_->newest(), *query.workpiece)) meets(*query.workpiece, missed, now);
@@ -173,14 +173,14 @@ void WarningMonitor::meets(const Workpiece& workpiece, const std::vector<std::ui
 
 void WarningMonitor::posesLost(const std::string& message, SteadyTime now) {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     inputs_.pose_loss = WarningInputs::Event{message, now};
   }
   on_fault_();
 }
 
 void WarningMonitor::setWorkpieces(const Workpieces& workpieces, std::optional<SteadyTime> now) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   workpieces_->set(workpieces, now);
   warnings_->endAcknowledgementsOfGone(workpieces);
 }
@@ -189,7 +189,7 @@ void WarningMonitor::swept(const SweepReport& report, const Timestamps& pose, co
                            SteadyTime now) {
   const InStage stage(Stage::kMonitor);
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     if (epoch_ != checkpoint.epoch) return sweptBeforeJump(report, checkpoint, now);
     faults_->endBefore(checkpoint.faults, now);
     addFailures(report.failures, "detection on");
@@ -229,7 +229,7 @@ void WarningMonitor::predicted(const Prediction& prediction, const Timestamps& p
                                const Instant& now, Duration took) {
   const InStage stage(Stage::kMonitor);
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     if (epoch_ != checkpoint.epoch) return;
     inputs_.look_ahead = took;
     addFailures(prediction.failures, "predicting contact with");
@@ -267,7 +267,7 @@ Time WarningMonitor::coveredUntil(const Instant& now) const {
 
 std::string WarningMonitor::whyNotAcknowledged(const std::string& id, const Instant& now) const {
   const Progress progress = readProgress();
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return whyNotAcknowledgedLocked(id, now, progress);
 }
 
@@ -282,25 +282,25 @@ std::string WarningMonitor::whyNotAcknowledgedLocked(const std::string& id, cons
 
 std::string WarningMonitor::acknowledge(const std::string& id, const Instant& now) {
   const Progress progress = readProgress();
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   std::string refusal = whyNotAcknowledgedLocked(id, now, progress);
   if (refusal.empty()) warnings_->acknowledge(*findWorkpiece(workpieces_->newest(), id), now);
   return refusal;
 }
 
 void WarningMonitor::endAcknowledgement(const std::string& id) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   warnings_->endAcknowledgement(id);
 }
 
 std::vector<std::string> WarningMonitor::acknowledged(SteadyTime now) const {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return warnings_->acknowledged(now);
 }
 
 void WarningMonitor::timeJumped(const std::string& message) {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     const std::uint64_t first_epoch = first_epoch_;
     restartLocked();
     first_epoch_ = first_epoch;
@@ -312,7 +312,7 @@ void WarningMonitor::timeJumped(const std::string& message) {
 
 void WarningMonitor::placedAnew(const std::string& message) {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     faults_->add(kTimeJump, message);
     placed_anew_ = faults_->count();
     coverage_.reset();
@@ -337,7 +337,7 @@ void WarningMonitor::restartLocked() {
 
 void WarningMonitor::restart() {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     faults_->set(kCrosscheck, {});
     restartLocked();
     inputs_.contact.reset();
@@ -348,7 +348,7 @@ void WarningMonitor::restart() {
 
 void WarningMonitor::disable(const std::string& asked_by) {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     disableLocked(asked_by);
   }
   on_fault_();
@@ -364,7 +364,7 @@ void WarningMonitor::disableLocked(const std::string& asked_by) {
 std::string WarningMonitor::disableBelow(WarningLevel level, const Instant& now, const std::string& asked_by) {
   {
     const Progress progress = readProgress();
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     Warning warning;
     computeLocked(now, progress, warning);
     if (warning.level >= level) return warning.text;
@@ -376,7 +376,7 @@ std::string WarningMonitor::disableBelow(WarningLevel level, const Instant& now,
 
 void WarningMonitor::enable() {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     if (!inputs_.disabled_by) return;
     restartLocked();
     inputs_.disabled_by.reset();
@@ -386,7 +386,7 @@ void WarningMonitor::enable() {
 
 void WarningMonitor::end() {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     restartLocked();
     inputs_.ended = true;
   }
@@ -394,17 +394,17 @@ void WarningMonitor::end() {
 }
 
 std::optional<std::string> WarningMonitor::disabledBy() const {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return inputs_.disabled_by;
 }
 
 bool WarningMonitor::counts(const Checkpoint& checkpoint) const {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return epoch_ == checkpoint.epoch && !inputs_.disabled_by && !inputs_.ended;
 }
 
 bool WarningMonitor::isToBeSwept(const Checkpoint& checkpoint) const {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return isToBeSweptLocked(checkpoint);
 }
 
@@ -413,13 +413,13 @@ bool WarningMonitor::isToBeSweptLocked(const Checkpoint& checkpoint) const {
 }
 
 void WarningMonitor::setLimits(const WarningLimits& limits) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   limits_ = limits;
 }
 
 void WarningMonitor::warning(const Instant& now, Warning& warning) const {
   const Progress progress = readProgress();
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   computeLocked(now, progress, warning);
 }
 
@@ -432,7 +432,7 @@ void WarningMonitor::computeLocked(const Instant& now, const Progress& progress,
 
 std::string WarningMonitor::meshProblems(const Instant& now, const std::vector<std::string>& ids) const {
   const char* const hung = hung_();
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return sweep_guard_core::meshProblems(inputsAbout(ids, hung), now, limits_);
 }
 

@@ -2,12 +2,11 @@
 
 #include <Eigen/Core>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 
 #include "ros/input/frames.h"
-#include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 
@@ -33,8 +32,8 @@ class DeviceAxes {
   const Frames& frames_;
   const std::string fixed_frame_;
   const std::string device_frame_;
-  mutable sweep_guard_core::PriorityMutex mutex_;
-  std::optional<Looked> newest_;
+  mutable sweep_guard_core::Mutex mutex_;
+  std::optional<Looked> newest_ GUARDED_BY(mutex_);
   const std::shared_ptr<void> transforms_changed_;
 };
 
