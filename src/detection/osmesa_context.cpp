@@ -1,8 +1,9 @@
 #include <GL/gl.h>
 
-#include <mutex>
 #include <set>
 #include <vector>
+
+#include "sweep_guard/common/mutex.h"
 
 #include "detection/offscreen_context.h"
 
@@ -34,21 +35,21 @@ const OsMesa& osMesa() {
 class BufferWidth {
  public:
   BufferWidth() {
-    const std::lock_guard lock(mutex());
+    const Lock lock(mutex());
     while (!taken().insert(pixels_).second) ++pixels_;
   }
   BufferWidth(const BufferWidth&) = delete;
   BufferWidth& operator=(const BufferWidth&) = delete;
   ~BufferWidth() {
-    const std::lock_guard lock(mutex());
+    const Lock lock(mutex());
     taken().erase(pixels_);
   }
 
   GLsizei pixels() const { return pixels_; }
 
  private:
-  static std::mutex& mutex() {
-    static std::mutex guards_taken;
+  static Mutex& mutex() {
+    static Mutex guards_taken;
     return guards_taken;
   }
   static std::set<GLsizei>& taken() {

@@ -1,7 +1,6 @@
 #include "sweep_guard/guard/allowed_contact.h"
 
 #include <algorithm>
-#include <mutex>
 
 namespace sweep_guard_core {
 
@@ -15,7 +14,7 @@ AllowedMatches::AllowedMatches(const AllowedPairs& pairs) {
 }
 
 void AllowedMatches::follow(const Workpieces& newest) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   for (Match& match : matches_) {
     match.has_matched = match.has_matched || std::any_of(newest.begin(), newest.end(), [&](const auto& workpiece) {
                           return match.pair.concerns(workpiece->id);
@@ -24,7 +23,7 @@ void AllowedMatches::follow(const Workpieces& newest) {
 }
 
 std::vector<AllowedMatches::Match> AllowedMatches::matches() const {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return matches_;
 }
 

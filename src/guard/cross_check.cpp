@@ -96,8 +96,9 @@ void QuerySampler::offer(const std::string& detector, const Submesh& submesh, co
   if (count_ < every_) return;
   const auto same = [&](const auto& workpiece) { return &workpiece->mesh_M == &submesh.mesh_M(); };
   const auto workpiece = std::find_if(workpieces_.begin(), workpieces_.end(), same);
-  const std::unique_lock lock(mutex_, std::try_to_lock);
-  if (!lock || workpiece == workpieces_.end() || kept_.workpiece) return;
+  if (workpiece == workpieces_.end() || !mutex_.tryLock()) return;
+  const Lock lock(mutex_, std::adopt_lock);
+  if (kept_.workpiece) return;
   count_ = 0;
   kept_.detector = detector;
   kept_.origin = origin_;
@@ -123,19 +124,19 @@ bool QuerySampler::take(SampledQuery& taken) {
 
 // Returns false if the thread has to wait. After stop(), nothing is taken.
 bool QuerySampler::takeNow(SampledQuery& taken) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   thread_waits_ = !stopping_ && !kept_.workpiece;
   if (!thread_waits_ && !stopping_) std::swap(taken, kept_);
   return !thread_waits_;
 }
 
 bool QuerySampler::waiting() {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return stopping_ || kept_.workpiece;
 }
 
 void QuerySampler::stop() {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   stopping_ = true;
   wake();
 }

@@ -4,10 +4,10 @@
 
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
+#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/common/stamped_pose.h"
 #include "sweep_guard/detection/detector.h"
 #include "sweep_guard/guard/workpiece.h"
@@ -58,17 +58,17 @@ class QuerySampler {
 
  private:
   bool takeNow(SampledQuery& taken);
-  void wake();
+  void wake() REQUIRES(mutex_);
 
   const int every_;
   int count_ = 0;
   Workpieces workpieces_;
   QueryOrigin origin_;
-  std::mutex mutex_;
+  Mutex mutex_;
   sem_t signal_;  // for the waiting thread: notifying a condition variable may wait for that thread
-  bool thread_waits_ = false;
-  SampledQuery kept_;  // has a workpiece while it waits
-  bool stopping_ = false;
+  bool thread_waits_ GUARDED_BY(mutex_) = false;
+  SampledQuery kept_ GUARDED_BY(mutex_);  // has a workpiece while it waits
+  bool stopping_ GUARDED_BY(mutex_) = false;
 };
 
 /// Returns a detector that asks another one, by this name, and offers each answer to a sampler, which must outlive it.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <utility>
 
 #include "sweep_guard/geometry/motion.h"
@@ -196,7 +195,7 @@ std::optional<FramePath> framePath(const FrameMotion& motion, Time begin, const 
 FrameMotionStore::FrameMotionStore() : motions_(std::make_shared<const FrameMotions>()) {}
 
 void FrameMotionStore::expect(const std::string& beginning, const std::set<std::string>& frames) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   for (auto frame = frames_.begin(); frame != frames_.end();)
     frame = beginsWith(*frame, beginning) ? frames_.erase(frame) : std::next(frame);
   frames_.insert(frames.begin(), frames.end());
@@ -208,7 +207,7 @@ void FrameMotionStore::expect(const std::string& beginning, const std::set<std::
 }
 
 void FrameMotionStore::set(const FrameMotions& motions) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   FrameMotions next = *motions_;
   for (const auto& [frame, motion] : motions) {
     if (frames_.count(frame) != 0) next[frame] = motion;
@@ -218,7 +217,7 @@ void FrameMotionStore::set(const FrameMotions& motions) {
 
 void FrameMotionStore::add(const std::string& frame, const std::vector<FramePose>& poses) {
   if (poses.empty()) return;
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   FrameMotion motion = motionOf(frame);
   for (const FramePose& pose : poses) insert(pose, motion.measured);
   const auto needed_from = needed_from_.find(frame);
@@ -228,7 +227,7 @@ void FrameMotionStore::add(const std::string& frame, const std::vector<FramePose
 }
 
 void FrameMotionStore::placeAnew(const std::string& frame, std::vector<FramePose> placed) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   FrameMotion motion = motionOf(frame);
   auto& measured = motion.measured;
   const Time last = placed.front().stamp - Duration(1);  // that it is in its old place
@@ -256,7 +255,7 @@ void FrameMotionStore::replace(const std::string& frame, FrameMotion motion) {
 }
 
 void FrameMotionStore::keepOnly(const std::set<std::string>& frames) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   FrameMotions left = *motions_;
   for (auto frame = added_.begin(); frame != added_.end();) {
     if (frames.count(*frame) == 0) {
@@ -269,19 +268,19 @@ void FrameMotionStore::keepOnly(const std::set<std::string>& frames) {
 }
 
 void FrameMotionStore::forgetBefore(Time pose, const FrameMotions& known) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   for (const auto& [frame, motion] : known) {
     if (added_.count(frame) != 0) needed_from_[frame] = std::min(pose, motion->measured.back().stamp);
   }
 }
 
 std::shared_ptr<const FrameMotions> FrameMotionStore::get() const {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return motions_;
 }
 
 bool FrameMotionStore::expects(const std::string& frame) const {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return frames_.count(frame) != 0;
 }
 

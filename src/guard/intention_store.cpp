@@ -85,7 +85,7 @@ void IntentionStore::set(const std::vector<IntentionRequest>& requests, SteadyTi
   const Workpieces workpieces = newest();
   Intentions regions;
   for (const IntentionRequest& request : requests) regions.push_back(intentionOf(request, workpieces, now));
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   endBefore(now);
   Intentions all = *intentions_;
   for (Intention& region : regions) apply(std::move(region), all);
@@ -93,7 +93,7 @@ void IntentionStore::set(const std::vector<IntentionRequest>& requests, SteadyTi
 }
 
 Workpieces IntentionStore::newest() const {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return newest_;
 }
 
@@ -110,7 +110,7 @@ void IntentionStore::apply(Intention region, Intentions& all) const {
 }
 
 void IntentionStore::follow(const Workpieces& newest) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   newest_ = newest;
   if (intentions_->empty()) return;
   const auto find = [&](const Intention& intention) {
@@ -132,12 +132,12 @@ void IntentionStore::follow(const Workpieces& newest) {
 }
 
 void IntentionStore::clear() {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   if (!intentions_->empty()) replace({});
 }
 
 std::shared_ptr<const Intentions> IntentionStore::at(SteadyTime now) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   endBefore(now);
   return intentions_;
 }

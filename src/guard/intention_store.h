@@ -1,12 +1,11 @@
 #pragma once
 
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/guard/intention.h"
 
 namespace sweep_guard_core {
@@ -49,13 +48,13 @@ class IntentionStore {
 
  private:
   Workpieces newest() const;
-  void apply(Intention region, Intentions& all) const;
-  void replace(Intentions all);
-  void endBefore(SteadyTime now);
+  void apply(Intention region, Intentions& all) const REQUIRES(mutex_);
+  void replace(Intentions all) REQUIRES(mutex_);
+  void endBefore(SteadyTime now) REQUIRES(mutex_);
 
-  mutable PriorityMutex mutex_;
-  Workpieces newest_;
-  std::shared_ptr<const Intentions> intentions_ = std::make_shared<const Intentions>();
+  mutable Mutex mutex_;
+  Workpieces newest_ GUARDED_BY(mutex_);
+  std::shared_ptr<const Intentions> intentions_ GUARDED_BY(mutex_) = std::make_shared<const Intentions>();
 };
 
 }  // namespace sweep_guard_core

@@ -119,7 +119,7 @@ UpdateOutcome WorkpieceStore::deform(const Deformation& deformation, Time latest
 }
 
 bool WorkpieceStore::wasRemoved(const Deformation& deformation) const {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return std::any_of(removed_.begin(), removed_.end(), [&](const auto& removed) {
     return removed.first == deformation.id && deformation.stamp <= removed.second;
   });
@@ -133,13 +133,13 @@ std::shared_ptr<Workpiece> WorkpieceStore::unusedSnapshot(const Workpiece& curre
 }
 
 std::shared_ptr<const Workpiece> WorkpieceStore::find(const std::string& id) const {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   const auto found = std::lower_bound(workpieces_.begin(), workpieces_.end(), id, before);
   return found != workpieces_.end() && (*found)->id == id ? *found : nullptr;
 }
 
 void WorkpieceStore::replace(std::shared_ptr<const Workpiece> snapshot) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   if (attached_.count(snapshot->id) != 0) throw attachedAnd(snapshot->id, "it came while it was attached");
   replaceLocked(std::move(snapshot));
 }
@@ -159,7 +159,7 @@ void WorkpieceStore::replaceLocked(std::shared_ptr<const Workpiece> snapshot) {
 
 bool WorkpieceStore::remove(const std::string& id, Time stamp) {
   buffers_.erase(id);
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   const auto found = std::lower_bound(workpieces_.begin(), workpieces_.end(), id, before);
   if (found == workpieces_.end() || (*found)->id != id) return false;
   removed_.emplace_back(id, std::max(stamp, (*found)->stamp));
@@ -171,7 +171,7 @@ bool WorkpieceStore::remove(const std::string& id, Time stamp) {
 }
 
 void WorkpieceStore::attach(const std::shared_ptr<const Workpiece>& workpiece, const Eigen::Isometry3d& X_BM) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   const auto found = std::lower_bound(workpieces_.begin(), workpieces_.end(), workpiece->id, before);
   const bool same = found != workpieces_.end() && (*found)->id == workpiece->id &&
                     (*found)->frame == workpiece->frame && sameTriangles((*found)->mesh_M, workpiece->mesh_M);
@@ -183,13 +183,13 @@ void WorkpieceStore::attach(const std::shared_ptr<const Workpiece>& workpiece, c
 }
 
 void WorkpieceStore::detach(Workpiece workpiece) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   attached_.erase(workpiece.id);
   replaceLocked(std::make_shared<const Workpiece>(std::move(workpiece)));
 }
 
 std::optional<WorkpieceStore::Attached> WorkpieceStore::attached(const std::string& id) const {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   const auto found = attached_.find(id);
   return found == attached_.end() ? std::nullopt : std::optional(found->second);
 }
@@ -197,19 +197,19 @@ std::optional<WorkpieceStore::Attached> WorkpieceStore::attached(const std::stri
 bool WorkpieceStore::contains(const std::string& id) const { return find(id) != nullptr; }
 
 Workpieces WorkpieceStore::snapshot() const {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return workpieces_;
 }
 
 Workpieces WorkpieceStore::snapshotBeside(const std::set<std::string>& attached) const {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   const auto is = [](const auto& held, const std::string& id) { return held.first == id; };
   if (std::equal(attached_.begin(), attached_.end(), attached.begin(), attached.end(), is)) return workpieces_;
   throw Error("a workpiece was attached or detached meanwhile: ask again");
 }
 
 std::shared_ptr<const std::set<std::string>> WorkpieceStore::frames() const {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return frames_;
 }
 
@@ -220,7 +220,7 @@ void WorkpieceStore::updateFrames() {
 }
 
 void WorkpieceStore::clearStamps() {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   removed_.clear();
   for (auto& workpiece : workpieces_) {
     Workpiece undated = *workpiece;

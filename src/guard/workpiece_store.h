@@ -5,7 +5,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
@@ -13,7 +12,7 @@
 #include <vector>
 
 #include "common/pool.h"
-#include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/guard/workpiece.h"
 
 namespace sweep_guard_core {
@@ -110,17 +109,18 @@ class WorkpieceStore {
   std::shared_ptr<const Workpiece> find(const std::string& id) const;
   std::shared_ptr<Workpiece> unusedSnapshot(const Workpiece& current);
   void replace(std::shared_ptr<const Workpiece> snapshot);
-  void replaceLocked(std::shared_ptr<const Workpiece> snapshot);
-  void updateFrames();
+  void replaceLocked(std::shared_ptr<const Workpiece> snapshot) REQUIRES(mutex_);
+  void updateFrames() REQUIRES(mutex_);
   bool wasRemoved(const Deformation& deformation) const;
 
   const OnChange on_change_;
-  mutable PriorityMutex mutex_;
-  Workpieces workpieces_;
-  std::map<std::string, Attached> attached_;  // by id
-  std::shared_ptr<const std::set<std::string>> frames_ = std::make_shared<const std::set<std::string>>();
-  std::map<std::string, Buffers> buffers_;            // by id, for the triangles of the snapshot; not locked
-  std::deque<std::pair<std::string, Time>> removed_;  // ids and stamps, the newest last
+  mutable Mutex mutex_;
+  Workpieces workpieces_ GUARDED_BY(mutex_);
+  std::map<std::string, Attached> attached_ GUARDED_BY(mutex_);  // by id
+  std::shared_ptr<const std::set<std::string>> frames_ GUARDED_BY(mutex_) =
+      std::make_shared<const std::set<std::string>>();
+  std::map<std::string, Buffers> buffers_;  // by id, for the triangles of the snapshot; not locked
+  std::deque<std::pair<std::string, Time>> removed_ GUARDED_BY(mutex_);  // ids and stamps, the newest last
 };
 
 }  // namespace sweep_guard_core

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <mutex>
 #include <optional>
 #include <string>
 
+#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/common/time.h"
 
 namespace sweep_guard_core {
@@ -23,33 +23,33 @@ class InputRecord {
   };
 
   void received(const Timestamps& message) {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     ++summary_.received;
     summary_.newest = message;
   }
 
   /// @param refused  false if the error does not refuse a message
   void error(const std::string& reason, bool refused) {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     summary_.refused += refused ? 1 : 0;
     summary_.last_error = reason;
     summary_.error_time = std::chrono::steady_clock::now();
   }
 
   void warn(const std::string& warning) {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     summary_.last_warning = warning;
     summary_.warning_time = std::chrono::steady_clock::now();
   }
 
   Summary summary() const {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     return summary_;
   }
 
  private:
-  mutable std::mutex mutex_;
-  Summary summary_;
+  mutable Mutex mutex_;
+  Summary summary_ GUARDED_BY(mutex_);
 };
 
 }  // namespace sweep_guard_core

@@ -7,19 +7,19 @@ namespace sweep_guard_core {
 constexpr size_t kMaxTimes = 10000;
 
 void SweepStatistics::setCycle(Duration cycle) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   cycle_ = cycle;
 }
 
 void SweepStatistics::fault(const std::string& reason) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   ++summary_.faults_total;
   ++summary_.faults;
   summary_.last_fault = reason;
 }
 
 void SweepStatistics::swept(Duration latency, Duration sweep_time) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   ++summary_.sweeps_total;
   if (latency > cycle_) ++summary_.late_total;
   if (summary_.latencies.size() < kMaxTimes) summary_.latencies.push_back(toSeconds(latency));
@@ -27,7 +27,7 @@ void SweepStatistics::swept(Duration latency, Duration sweep_time) {
 }
 
 void SweepStatistics::predicted(const PredictionTiming& prediction) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   ++summary_.predictions_total;
   if (prediction.latency > cycle_) ++summary_.late_predictions_total;
   if (summary_.prediction_times.size() < kMaxTimes) summary_.prediction_times.push_back(toSeconds(prediction.time));
@@ -36,7 +36,7 @@ void SweepStatistics::predicted(const PredictionTiming& prediction) {
 }
 
 SweepStatistics::Summary SweepStatistics::take() {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   Summary taken = summary_;
   summary_.latencies.clear();
   summary_.longest_sweep = 0.0;
@@ -47,7 +47,7 @@ SweepStatistics::Summary SweepStatistics::take() {
 }
 
 void SweepStatistics::restart() {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   summary_ = {};
 }
 

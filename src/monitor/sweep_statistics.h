@@ -1,11 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <mutex>
 #include <string>
 #include <vector>
 
-#include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/common/time.h"
 
 namespace sweep_guard_core {
@@ -48,9 +47,9 @@ class SweepStatistics {
   void restart();                         ///< resets all counters
 
  private:
-  PriorityMutex mutex_;
-  Duration cycle_;
-  Summary summary_;
+  Mutex mutex_;
+  Duration cycle_ GUARDED_BY(mutex_);
+  Summary summary_ GUARDED_BY(mutex_);
 };
 
 }  // namespace sweep_guard_core

@@ -26,13 +26,13 @@ WarningMonitor::WarningMonitor(const WarningLimits& limits, std::function<void()
 WarningMonitor::~WarningMonitor() = default;
 
 WarningMonitor::Checkpoint WarningMonitor::checkpoint() const {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return {epoch_, faults_->count()};
 }
 
 void WarningMonitor::timeJumped(const std::string& message) {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     const std::uint64_t first_epoch = first_epoch_;
     restartLocked();
     first_epoch_ = first_epoch;
@@ -44,7 +44,7 @@ void WarningMonitor::timeJumped(const std::string& message) {
 
 void WarningMonitor::placedAnew(const std::string& message) {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     faults_->add(kTimeJump, message);
     placed_anew_ = faults_->count();
     coverage_.reset();
@@ -69,7 +69,7 @@ void WarningMonitor::restartLocked() {
 
 void WarningMonitor::restart() {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     faults_->set(kCrosscheck, {});
     restartLocked();
     inputs_.contact.reset();
@@ -80,7 +80,7 @@ void WarningMonitor::restart() {
 
 void WarningMonitor::disable(const std::string& asked_by) {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     disableLocked(asked_by);
   }
   on_fault_();
@@ -96,7 +96,7 @@ void WarningMonitor::disableLocked(const std::string& asked_by) {
 std::string WarningMonitor::disableBelow(WarningLevel level, const Instant& now, const std::string& asked_by) {
   {
     const Progress progress = readProgress();
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     Warning warning;
     computeLocked(now, progress, warning);
     if (warning.level >= level) return warning.text;
@@ -108,7 +108,7 @@ std::string WarningMonitor::disableBelow(WarningLevel level, const Instant& now,
 
 void WarningMonitor::enable() {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     if (!inputs_.disabled_by) return;
     restartLocked();
     inputs_.disabled_by.reset();
@@ -118,7 +118,7 @@ void WarningMonitor::enable() {
 
 void WarningMonitor::end() {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     restartLocked();
     inputs_.ended = true;
   }
@@ -126,17 +126,17 @@ void WarningMonitor::end() {
 }
 
 std::optional<std::string> WarningMonitor::disabledBy() const {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return inputs_.disabled_by;
 }
 
 bool WarningMonitor::counts(const Checkpoint& checkpoint) const {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return epoch_ == checkpoint.epoch && !inputs_.disabled_by && !inputs_.ended;
 }
 
 bool WarningMonitor::isToBeSwept(const Checkpoint& checkpoint) const {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return isToBeSweptLocked(checkpoint);
 }
 
@@ -145,13 +145,13 @@ bool WarningMonitor::isToBeSweptLocked(const Checkpoint& checkpoint) const {
 }
 
 void WarningMonitor::setLimits(const WarningLimits& limits) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   limits_ = limits;
 }
 
 void WarningMonitor::warning(const Instant& now, Warning& warning) const {
   const Progress progress = readProgress();
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   computeLocked(now, progress, warning);
 }
 
@@ -164,7 +164,7 @@ void WarningMonitor::computeLocked(const Instant& now, const Progress& progress,
 
 std::string WarningMonitor::meshProblems(const Instant& now, const std::vector<std::string>& ids) const {
   const char* const hung = hung_();
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return sweep_guard_core::meshProblems(inputsAbout(ids, hung), now, limits_);
 }
 

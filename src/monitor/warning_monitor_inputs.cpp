@@ -11,12 +11,12 @@
 namespace sweep_guard_core {
 
 void WarningMonitor::require(const std::set<std::string>& ids) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   inputs_.required.assign(ids.begin(), ids.end());
 }
 
 void WarningMonitor::requireTools(const std::vector<std::string>& names) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   inputs_.other_tools.clear();
   for (const std::string& name : names) inputs_.other_tools.push_back({name, {}, {}});
 }
@@ -28,7 +28,7 @@ WarningInputs::OtherTool* WarningMonitor::findTool(const std::string& name) {
 }
 
 void WarningMonitor::toolHeard(const std::string& name, const Timestamps& pose) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   WarningInputs::OtherTool* const tool = findTool(name);
   if (tool == nullptr) return;
   tool->newest = pose;
@@ -37,7 +37,7 @@ void WarningMonitor::toolHeard(const std::string& name, const Timestamps& pose) 
 
 void WarningMonitor::toolUnknown(const std::string& name, const std::string& problem) {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     WarningInputs::OtherTool* const tool = findTool(name);
     if (tool == nullptr) return;
     tool->problem = problem;
@@ -46,36 +46,36 @@ void WarningMonitor::toolUnknown(const std::string& name, const std::string& pro
 }
 
 std::vector<WarningInputs::OtherTool> WarningMonitor::otherTools() const {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return inputs_.other_tools;
 }
 
 void WarningMonitor::frameHeard(const std::string& frame, Time stamp, const Instant& now) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   late_frames_->add(frame, stamp, now, limits_.pose_timeout);
 }
 
 void WarningMonitor::setMovingFrames(const std::set<std::string>& frames) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   late_frames_->keepOnly(frames);
 }
 
 void WarningMonitor::fault(Reason reason, const std::string& message) {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     faults_->add(reason, message);
   }
   on_fault_();
 }
 
 void WarningMonitor::failed(Reason reason, const char* message, SteadyTime now, bool lasting) noexcept {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   faults_->addFailure(reason, message, now, lasting);
 }
 
 void WarningMonitor::meshRefused(const std::string& id, const std::string& message, SteadyTime received) {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     refused_meshes_->add(id, {message, received});
     faults_->set(kMeshInvalid, refusal());
   }
@@ -84,7 +84,7 @@ void WarningMonitor::meshRefused(const std::string& id, const std::string& messa
 
 void WarningMonitor::verticesRefused(const std::string& id, const std::string& message, SteadyTime received) {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     refused_vertices_->add(id, {message, received});
     faults_->set(kMeshInvalid, refusal());
   }
@@ -92,14 +92,14 @@ void WarningMonitor::verticesRefused(const std::string& id, const std::string& m
 }
 
 void WarningMonitor::meshAccepted(const std::string& id, SteadyTime received) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   refused_meshes_->accept(id, received);
   refused_vertices_->accept(id, received);
   faults_->set(kMeshInvalid, refusal());
 }
 
 void WarningMonitor::verticesAccepted(const std::string& id, SteadyTime received) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   refused_vertices_->accept(id, received);
   faults_->set(kMeshInvalid, refusal());
 }
@@ -111,7 +111,7 @@ std::string WarningMonitor::refusal(const std::vector<std::string>& ids) const {
 
 void WarningMonitor::meshUnread(const std::string& message, SteadyTime now) {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     inputs_.unread = WarningInputs::Event{message, now};
   }
   on_fault_();
@@ -119,7 +119,7 @@ void WarningMonitor::meshUnread(const std::string& message, SteadyTime now) {
 
 void WarningMonitor::updateDropped(const std::string& id, SteadyTime received) {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     if (!workpieces_->drop(id, received)) return;
   }
   on_fault_();
@@ -127,7 +127,7 @@ void WarningMonitor::updateDropped(const std::string& id, SteadyTime received) {
 
 void WarningMonitor::detectorTested(const std::string& failure) {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     const bool exchanged = failure.empty() && !faults_->get(kSelftest).empty();
     faults_->set(kSelftest, failure);
     if (exchanged) restartLocked();
@@ -137,7 +137,7 @@ void WarningMonitor::detectorTested(const std::string& failure) {
 
 void WarningMonitor::detectorsDisagree(const std::string& message, const SampledQuery& query,
                                        const std::vector<std::uint32_t>& missed, SteadyTime now) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   if (query.origin.epoch != epoch_) return;
   faults_->set(kCrosscheck, message);
   if (query.origin.measured && holds(workpieces_->newest(), *query.workpiece)) meets(*query.workpiece, missed, now);
@@ -151,14 +151,14 @@ void WarningMonitor::meets(const Workpiece& workpiece, const std::vector<std::ui
 
 void WarningMonitor::posesLost(const std::string& message, SteadyTime now) {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     inputs_.pose_loss = WarningInputs::Event{message, now};
   }
   on_fault_();
 }
 
 void WarningMonitor::setWorkpieces(const Workpieces& workpieces, std::optional<SteadyTime> now) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   workpieces_->set(workpieces, now);
   warnings_->endAcknowledgementsOfGone(workpieces);
 }

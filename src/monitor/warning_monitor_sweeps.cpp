@@ -13,7 +13,7 @@ void WarningMonitor::swept(const SweepReport& report, const Timestamps& pose, co
                            SteadyTime now) {
   const InStage stage(Stage::kMonitor);
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     if (epoch_ != checkpoint.epoch) return sweptBeforeJump(report, checkpoint, now);
     faults_->endBefore(checkpoint.faults, now);
     addFailures(report.failures, "detection on");
@@ -53,7 +53,7 @@ void WarningMonitor::predicted(const Prediction& prediction, const Timestamps& p
                                const Instant& now, Duration took) {
   const InStage stage(Stage::kMonitor);
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     if (epoch_ != checkpoint.epoch) return;
     inputs_.look_ahead = took;
     addFailures(prediction.failures, "predicting contact with");
@@ -91,7 +91,7 @@ Time WarningMonitor::coveredUntil(const Instant& now) const {
 
 std::string WarningMonitor::whyNotAcknowledged(const std::string& id, const Instant& now) const {
   const Progress progress = readProgress();
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return whyNotAcknowledgedLocked(id, now, progress);
 }
 
@@ -106,19 +106,19 @@ std::string WarningMonitor::whyNotAcknowledgedLocked(const std::string& id, cons
 
 std::string WarningMonitor::acknowledge(const std::string& id, const Instant& now) {
   const Progress progress = readProgress();
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   std::string refusal = whyNotAcknowledgedLocked(id, now, progress);
   if (refusal.empty()) warnings_->acknowledge(*findWorkpiece(workpieces_->newest(), id), now);
   return refusal;
 }
 
 void WarningMonitor::endAcknowledgement(const std::string& id) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   warnings_->endAcknowledgement(id);
 }
 
 std::vector<std::string> WarningMonitor::acknowledged(SteadyTime now) const {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return warnings_->acknowledged(now);
 }
 

@@ -21,7 +21,7 @@ constexpr size_t kMaxTasks = 16;
 bool WorkQueue::push(QueuedPose pose) {
   bool full = false;
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     full = work_.poses.size() == kMaxPoses;
     if (full) work_.poses.pop_back();
     work_.poses.push_back(std::move(pose));
@@ -31,14 +31,14 @@ bool WorkQueue::push(QueuedPose pose) {
 }
 
 void WorkQueue::framesMoved() {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   work_.frames_moved = true;
   wake();
 }
 
 void WorkQueue::pushTask(std::function<void()> task) {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     if (stopping_) throw Error("the guard is shutting down");
     if (work_.tasks.size() >= kMaxTasks) throw Error("the guard is busy: ask again");
     work_.tasks.push_back(std::move(task));
@@ -78,7 +78,7 @@ bool WorkQueue::wait(std::optional<SteadyTime> until) {
 
 // Returns false if the thread has to wait. After stop(), what is taken is empty.
 bool WorkQueue::takeNow(Work& taken) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   taken.poses.clear();
   taken.frames_moved = false;
   if (stopping_) return true;
@@ -90,12 +90,12 @@ bool WorkQueue::takeNow(Work& taken) {
 }
 
 void WorkQueue::takePoses(std::vector<QueuedPose>& taken) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   takePosesNow(taken);
 }
 
 std::vector<std::function<void()>> WorkQueue::takeTasks() {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return std::exchange(work_.tasks, {});
 }
 
@@ -118,35 +118,35 @@ void WorkQueue::takePosesNow(std::vector<QueuedPose>& taken) {
 }
 
 void WorkQueue::swept(std::optional<SteadyTime> next) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   taken_since_ = next;
 }
 
 std::optional<SteadyTime> WorkQueue::waitingSince() const {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   if (taken_since_ || work_.poses.empty()) return taken_since_;
   return work_.poses.front().pose.received;
 }
 
 bool WorkQueue::hasPoses() const {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return !work_.poses.empty();
 }
 
 bool WorkQueue::hasWork() const {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return !work_.poses.empty() || !work_.tasks.empty() || work_.frames_moved;
 }
 
 bool WorkQueue::stopped() const {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return stopping_;
 }
 
 void WorkQueue::stop() {
   Work dropped;
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     stopping_ = true;
     std::swap(dropped, work_);
     wake();

@@ -5,12 +5,11 @@
 #include <functional>
 #include <future>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/guard/pose_with_frames.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
@@ -85,15 +84,15 @@ class WorkQueue {
   void pushTask(std::function<void()> task);
   bool takeNow(Work& taken);
   bool wait(std::optional<SteadyTime> until);
-  void takePosesNow(std::vector<QueuedPose>& taken);
-  void wake();
+  void takePosesNow(std::vector<QueuedPose>& taken) REQUIRES(mutex_);
+  void wake() REQUIRES(mutex_);
 
-  mutable PriorityMutex mutex_;
-  sem_t signal_;          // for the waiting thread: a condition variable has a lock without inheritance of priority
-  bool waiting_ = false;  // the taking thread
-  Work work_;
-  std::optional<SteadyTime> taken_since_;  // of the oldest taken pose that is not yet swept
-  bool stopping_ = false;
+  mutable Mutex mutex_;
+  sem_t signal_;  // for the waiting thread: a condition variable has a lock without inheritance of priority
+  bool waiting_ GUARDED_BY(mutex_) = false;  // the taking thread
+  Work work_ GUARDED_BY(mutex_);
+  std::optional<SteadyTime> taken_since_ GUARDED_BY(mutex_);  // of the oldest taken pose that is not yet swept
+  bool stopping_ GUARDED_BY(mutex_) = false;
 };
 
 }  // namespace sweep_guard_core

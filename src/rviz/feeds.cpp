@@ -32,12 +32,12 @@ void WarningFeed::listen(const std::string& topic) {
 }
 
 std::vector<ReceivedWarning> WarningFeed::take() {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   return std::exchange(received_, {});
 }
 
 void WarningFeed::receive(const sweep_guard::Warning& warning) {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   if (received_.size() >= kKept) received_.erase(received_.begin(), received_.begin() + kKept / 2);
   received_.push_back({warning, currentInstant()});
 }

@@ -6,11 +6,11 @@
 #include <sweep_guard/Interaction.h>
 
 #include <chrono>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "rviz/panel_state.h"
+#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_rviz {
 
@@ -35,8 +35,8 @@ class WarningFeed {
   ros::NodeHandle node_;
   ros::AsyncSpinner spinner_;
   ros::Subscriber subscriber_;
-  std::mutex mutex_;
-  std::vector<ReceivedWarning> received_;
+  sweep_guard_core::Mutex mutex_;
+  std::vector<ReceivedWarning> received_ GUARDED_BY(mutex_);
 };
 
 constexpr auto kSilent = std::chrono::milliseconds(500);  ///< after which a message is no longer shown

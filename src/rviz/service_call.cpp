@@ -15,7 +15,7 @@ ServiceCall::~ServiceCall() {
 }
 
 void ServiceCall::drop() {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   dropped_ = true;
   client_.shutdown();
   outcome_.reset();
@@ -36,26 +36,26 @@ void ServiceCall::acknowledge(const std::string& service, const std::string& mes
 }
 
 bool ServiceCall::busy() const {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   return busy_;
 }
 
 std::optional<std::string> ServiceCall::takeOutcome() {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   return std::exchange(outcome_, std::nullopt);
 }
 
 template <typename Service>
 void ServiceCall::start(const std::string& name, Service service) {
   {
-    const std::lock_guard lock(mutex_);
+    const sweep_guard_core::Lock lock(mutex_);
     if (std::exchange(busy_, true)) return;
     dropped_ = false;
   }
   if (thread_.joinable()) thread_.join();
   thread_ = std::thread([this, name, service]() mutable {
     std::string outcome = call(name, service);
-    const std::lock_guard lock(mutex_);
+    const sweep_guard_core::Lock lock(mutex_);
     if (!dropped_) outcome_ = std::move(outcome);
     busy_ = false;
   });
@@ -66,7 +66,7 @@ std::string ServiceCall::call(const std::string& name, Service& service) {
   // Persistent: only a persistent call ends when its client is shut down.
   ros::ServiceClient client = ros::NodeHandle().serviceClient<Service>(name, /*persistent=*/true);
   {
-    const std::lock_guard lock(mutex_);
+    const sweep_guard_core::Lock lock(mutex_);
     if (dropped_) return "";
     client_ = client;
   }

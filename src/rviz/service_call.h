@@ -4,10 +4,11 @@
 
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
+
+#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_rviz {
 
@@ -39,11 +40,11 @@ class ServiceCall {
   template <typename Service>
   std::string call(const std::string& name, Service& service);
 
-  mutable std::mutex mutex_;
-  ros::ServiceClient client_;  // of the running call: its shutdown ends the call
-  bool dropped_ = false;
-  bool busy_ = false;
-  std::optional<std::string> outcome_;
+  mutable sweep_guard_core::Mutex mutex_;
+  ros::ServiceClient client_ GUARDED_BY(mutex_);  // of the running call: its shutdown ends the call
+  bool dropped_ GUARDED_BY(mutex_) = false;
+  bool busy_ GUARDED_BY(mutex_) = false;
+  std::optional<std::string> outcome_ GUARDED_BY(mutex_);
   std::thread thread_;
 };
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/guard/workpiece.h"
 
 namespace sweep_guard_core {
@@ -40,8 +40,8 @@ class AllowedMatches {
   std::vector<Match> matches() const;  ///< in the order of the pairs
 
  private:
-  mutable PriorityMutex mutex_;
-  std::vector<Match> matches_;
+  mutable Mutex mutex_;
+  std::vector<Match> matches_ GUARDED_BY(mutex_);
 };
 
 }  // namespace sweep_guard_core

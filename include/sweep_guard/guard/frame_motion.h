@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/common/stamped_pose.h"
 #include "sweep_guard/common/time.h"
 #include "sweep_guard/prediction/pose_predictor.h"
@@ -102,14 +102,14 @@ class FrameMotionStore {
   std::optional<Eigen::Isometry3d> newest(const std::string& frame) const;
 
  private:
-  FrameMotion motionOf(const std::string& frame) const;
-  void replace(const std::string& frame, FrameMotion motion);
+  FrameMotion motionOf(const std::string& frame) const REQUIRES(mutex_);
+  void replace(const std::string& frame, FrameMotion motion) REQUIRES(mutex_);
 
-  mutable PriorityMutex mutex_;
-  std::set<std::string> frames_;
-  std::shared_ptr<const FrameMotions> motions_;
-  std::set<std::string> added_;              // frames of add()
-  std::map<std::string, Time> needed_from_;  // by frame, as forgetBefore()
+  mutable Mutex mutex_;
+  std::set<std::string> frames_ GUARDED_BY(mutex_);
+  std::shared_ptr<const FrameMotions> motions_ GUARDED_BY(mutex_);
+  std::set<std::string> added_ GUARDED_BY(mutex_);              // frames of add()
+  std::map<std::string, Time> needed_from_ GUARDED_BY(mutex_);  // by frame, as forgetBefore()
 };
 
 }  // namespace sweep_guard_core

@@ -50,7 +50,7 @@ Recorder::~Recorder() {
   if (recording_.valid()) recording_.wait();
   if (!trigger_.waiting()) return;
   {
-    const std::lock_guard lock(mutex_);
+    const sweep_guard_core::Lock lock(mutex_);
     beginRecording();
   }
   recording_.wait();
@@ -68,7 +68,7 @@ void Recorder::hear(const RecordedTopic& topic, const ros::MessageEvent<const to
 
   bool kept = false;
   {
-    const std::lock_guard lock(mutex_);
+    const sweep_guard_core::Lock lock(mutex_);
     makeRoomFor(received, size);
     kept = window_.add({received, size, std::move(key), {topic.recorded, message, event.getConnectionHeaderPtr()}});
     if (!kept) ++summary_.too_large;
@@ -106,13 +106,13 @@ void Recorder::heardWarning(Wire message) {
 }
 
 std::string Recorder::requestRecording() {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   trigger_.requested(now());
   return summary_.problem;
 }
 
 void Recorder::tick() {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   if (summary_.writing) return;
   const sweep_guard_core::Instant instant = now();
   if (trigger_.due(instant)) {
@@ -136,7 +136,7 @@ void Recorder::beginRecording() {
     if (!covered) log_.error("late", "black box: " + name + " was written too late to contain its event");
     const bool written = attempt([&] { write(name, *messages); });
     messages.reset();  // recording_ keeps this function until the next one
-    const std::lock_guard lock(mutex_);
+    const sweep_guard_core::Lock lock(mutex_);
     summary_.writing = false;
     ++(written ? summary_.written : summary_.failed);
   });
@@ -150,7 +150,7 @@ void Recorder::write(const std::string& name, const HeardMessages& messages) {
   });
   ROS_INFO("recorded %zu messages: %s", messages.size(), paths.bag.c_str());
   std::vector<sweep_guard_core::StoredRecording> stored = folder_.stored();
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   summary_.newest = paths.bag;
   summary_.stored = std::move(stored);
 }
@@ -160,7 +160,7 @@ void Recorder::inspectFolder() {
   std::vector<sweep_guard_core::StoredRecording> stored = folder_.stored();
   std::size_t size = 0;
   {
-    const std::lock_guard lock(mutex_);
+    const sweep_guard_core::Lock lock(mutex_);
     summary_.stored = std::move(stored);
     size = window_.size();
   }
@@ -175,13 +175,13 @@ bool Recorder::attempt(const std::function<void()>& work) {
     problem = error.what();
     log_.error("recording", "black box: " + problem);
   }
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   summary_.problem = problem;
   return problem.empty();
 }
 
 Recorder::Summary Recorder::summary() const {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   Summary summary = summary_;
   summary.length = window_.length();
   summary.messages = window_.count();

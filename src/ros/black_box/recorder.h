@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <functional>
 #include <future>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +21,7 @@
 #include "ros/connection/wire.h"
 #include "ros/process/log_throttle.h"
 #include "ros/threads/background_thread.h"
+#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 
@@ -65,21 +65,21 @@ class Recorder {
   using Window = sweep_guard_core::MessageWindow<HeardMessage>;
 
   // With the lock.
-  sweep_guard_core::Instant now() const;
-  void makeRoomFor(sweep_guard_core::Time received, std::size_t size);
-  void heardWarning(Wire message);
-  void beginRecording();
+  sweep_guard_core::Instant now() const REQUIRES(mutex_);
+  void makeRoomFor(sweep_guard_core::Time received, std::size_t size) REQUIRES(mutex_);
+  void heardWarning(Wire message) REQUIRES(mutex_);
+  void beginRecording() REQUIRES(mutex_);
   // In the thread of the writer.
   void write(const std::string& name, const HeardMessages& messages);
   void inspectFolder();
   bool attempt(const std::function<void()>& work);
 
   const BlackBoxParameters& parameters_;
-  mutable std::mutex mutex_;  // of what follows, up to the recording
-  Window window_;
-  sweep_guard_core::RecordingTrigger trigger_;
-  sweep_guard_core::SteadyTime next_inspection_{};
-  Summary summary_{};
+  mutable sweep_guard_core::Mutex mutex_;  // of what follows, up to the recording
+  Window window_ GUARDED_BY(mutex_);
+  sweep_guard_core::RecordingTrigger trigger_ GUARDED_BY(mutex_);
+  sweep_guard_core::SteadyTime next_inspection_ GUARDED_BY(mutex_){};
+  Summary summary_ GUARDED_BY(mutex_){};
   std::future<void> recording_;  // the newest that was begun
   LogThrottle log_;
   // Only in the thread of the writer.

@@ -8,7 +8,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <map>
-#include <mutex>
+
+#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -64,7 +65,7 @@ class Lookup {
 class Lookups {
  public:
   std::optional<std::string> find(const std::string& host) {
-    const std::lock_guard lock(mutex_);
+    const sweep_guard_core::Lock lock(mutex_);
     if (lookups_.count(host) == 0 && lookups_.size() >= kMaxNames) forgetDone();
     if (lookups_.count(host) == 0 && lookups_.size() >= kMaxNames) return std::nullopt;
     const auto lookup = lookups_.try_emplace(host, host).first;
@@ -75,14 +76,14 @@ class Lookups {
   }
 
  private:
-  void forgetDone() {
+  void forgetDone() REQUIRES(mutex_) {
     for (auto lookup = lookups_.begin(); lookup != lookups_.end();) {
       lookup = lookup->second.done() ? lookups_.erase(lookup) : std::next(lookup);
     }
   }
 
-  std::mutex mutex_;
-  std::map<std::string, Lookup> lookups_;
+  sweep_guard_core::Mutex mutex_;
+  std::map<std::string, Lookup> lookups_ GUARDED_BY(mutex_);
 };
 
 }  // namespace

@@ -1,13 +1,13 @@
 #include "ros/connection/own_services.h"
 
-#include <mutex>
+#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 namespace {
 
 struct OwnServices {
-  std::mutex mutex;
-  std::set<std::string> names;
+  sweep_guard_core::Mutex mutex;
+  std::set<std::string> names GUARDED_BY(mutex);
 };
 
 OwnServices& advertised() {
@@ -19,14 +19,14 @@ OwnServices& advertised() {
 
 ros::ServiceServer advertiseOwn(ros::NodeHandle& node, ros::AdvertiseServiceOptions& options) {
   {
-    const std::lock_guard lock(advertised().mutex);
+    const sweep_guard_core::Lock lock(advertised().mutex);
     advertised().names.insert(node.resolveName(options.service));
   }
   return node.advertiseService(options);
 }
 
 std::set<std::string> ownServices() {
-  const std::lock_guard lock(advertised().mutex);
+  const sweep_guard_core::Lock lock(advertised().mutex);
   return advertised().names;
 }
 

@@ -6,8 +6,9 @@
 #include <sys/socket.h>
 
 #include <cstdlib>
-#include <mutex>
 #include <utility>
+
+#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 
@@ -71,8 +72,8 @@ std::optional<PublishersOfTopics> connectedPublishers(const XmlRpcCall& call) {
 
 bool updatePublishers(const XmlRpcCall& call, const std::string& topic, const Publishers& added,
                       const Publishers& removed) {
-  static std::mutex one_at_a_time;
-  const std::lock_guard lock(one_at_a_time);
+  static sweep_guard_core::Mutex one_at_a_time;
+  const sweep_guard_core::Lock lock(one_at_a_time);
   auto connected = connectedPublishers(call);
   if (!connected) return false;
   Publishers& publishers = (*connected)[topic];

@@ -7,9 +7,9 @@
 namespace sweep_guard_ros {
 
 std::shared_ptr<TopicRefusals> TopicRefusals::of(const std::string& topic) {
-  static std::mutex mutex;
+  static sweep_guard_core::Mutex mutex;
   static std::map<std::string, std::weak_ptr<TopicRefusals>> of_topics;
-  const std::lock_guard lock(mutex);
+  const sweep_guard_core::Lock lock(mutex);
   std::weak_ptr<TopicRefusals>& known = of_topics[topic];
   auto refusals = known.lock();
   if (!refusals) known = refusals = std::make_shared<TopicRefusals>();
@@ -18,7 +18,7 @@ std::shared_ptr<TopicRefusals> TopicRefusals::of(const std::string& topic) {
 
 std::shared_ptr<TopicRefusals::Report> TopicRefusals::add(std::function<void(const std::string&)> report) {
   auto added = std::make_shared<Report>(std::move(report));
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   const auto is_gone = [](const auto& one) { return one.expired(); };
   reports_.erase(std::remove_if(reports_.begin(), reports_.end(), is_gone), reports_.end());
   reports_.push_back(added);
@@ -26,7 +26,7 @@ std::shared_ptr<TopicRefusals::Report> TopicRefusals::add(std::function<void(con
 }
 
 std::vector<std::weak_ptr<TopicRefusals::Report>> TopicRefusals::reports() const {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   return reports_;
 }
 

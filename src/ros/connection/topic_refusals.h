@@ -2,11 +2,11 @@
 
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "ros/threads/gate.h"
+#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 
@@ -27,8 +27,8 @@ class TopicRefusals {
  private:
   std::vector<std::weak_ptr<Report>> reports() const;
 
-  mutable std::mutex mutex_;
-  std::vector<std::weak_ptr<Report>> reports_;
+  mutable sweep_guard_core::Mutex mutex_;
+  std::vector<std::weak_ptr<Report>> reports_ GUARDED_BY(mutex_);
 };
 
 }  // namespace sweep_guard_ros

@@ -41,7 +41,7 @@ void GuardThread::stop() {
 
 // Makes the new parts and destroys the old ones here: the guard's thread only exchanges them.
 void GuardThread::apply(const std::shared_ptr<const Parameters>& next) {
-  const std::lock_guard lock(change_mutex_);
+  const sweep_guard_core::Lock lock(change_mutex_);
   const auto before = dependencies_.parameters.get();
   if (before->attached != next->attached) {
     throw Error("a workpiece was attached or detached meanwhile: ask again; no parameter was changed");
@@ -80,7 +80,7 @@ sweep_guard_core::GuardChange GuardThread::changeTo(const Parameters& next, cons
 }
 
 void GuardThread::reset() {
-  const std::lock_guard lock(change_mutex_);
+  const sweep_guard_core::Lock lock(change_mutex_);
   sweep_guard_core::GuardChange change;
   const auto parameters = dependencies_.parameters.get();
   change.options = parameters->guard;
@@ -97,7 +97,7 @@ void GuardThread::reset() {
 void GuardThread::exchangeTool(const std::shared_ptr<const Parameters>& before,
                                const std::shared_ptr<const Parameters>& next,
                                const std::function<void()>& change_store) {
-  const std::lock_guard lock(change_mutex_);
+  const sweep_guard_core::Lock lock(change_mutex_);
   sweep_guard_core::GuardChange change;
   change.options = next->guard;
   change.bodies = *next->bodies;

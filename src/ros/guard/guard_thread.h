@@ -3,7 +3,6 @@
 #include <functional>
 #include <future>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -12,6 +11,7 @@
 #include "monitor/work_queue.h"
 #include "ros/guard/guard_steps.h"
 #include "ros/threads/supervisor.h"
+#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 
@@ -75,7 +75,7 @@ class GuardThread {
   bool sweepWaiting();
 
   const GuardThreadDependencies dependencies_;
-  std::mutex change_mutex_;  // one change of the guard at a time
+  sweep_guard_core::Mutex change_mutex_;  // one change of the guard at a time
 
   // After the start, used by the thread only:
   GuardSteps steps_;

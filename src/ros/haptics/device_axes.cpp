@@ -15,7 +15,7 @@ DeviceAxes::DeviceAxes(Frames& frames, const std::string& fixed_frame, const std
 }
 
 std::optional<Eigen::Matrix3d> DeviceAxes::newest(Time now) const {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   if (!newest_) return {};
   const bool old = newest_->stamp != Time() && std::chrono::abs(now - newest_->stamp) > kOldestTransform;
   return old ? std::nullopt : std::optional(newest_->value);
@@ -37,7 +37,7 @@ void DeviceAxes::lookUp() {
     if (stamp) found = {*stamp, frames_.lookup(fixed_frame_, device_frame_, *stamp).linear()};
   } catch (const FrameError&) {  // problem() tells it
   }
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   newest_ = found;
 }
 

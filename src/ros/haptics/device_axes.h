@@ -2,12 +2,11 @@
 
 #include <Eigen/Core>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 
 #include "ros/input/frames.h"
-#include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/common/stamped_pose.h"
 
 namespace sweep_guard_ros {
@@ -29,8 +28,9 @@ class DeviceAxes {
   const Frames& frames_;
   const std::string fixed_frame_;
   const std::string device_frame_;
-  mutable sweep_guard_core::PriorityMutex mutex_;
-  std::optional<sweep_guard_core::StampedValue<Eigen::Matrix3d>> newest_;  // R_WD; stamp 0: it never changes
+  mutable sweep_guard_core::Mutex mutex_;
+  std::optional<sweep_guard_core::StampedValue<Eigen::Matrix3d>> newest_
+      GUARDED_BY(mutex_);  // R_WD; stamp 0: it never changes
   const std::shared_ptr<void> transforms_changed_;
 };
 

@@ -19,7 +19,7 @@ ForceCycle::ForceCycle(ros::NodeHandle node, const HapticsParameters& parameters
       publisher_(node.advertise<geometry_msgs::WrenchStamped>("servo_cf", 1)) {}
 
 void ForceCycle::tick() {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   if (stopped_) return;
   const Instant at = now();
   ticks_.tick(at.steady);
@@ -28,13 +28,13 @@ void ForceCycle::tick() {
 }
 
 void ForceCycle::stop() {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   stopped_ = true;
   publish({});
 }
 
 ForceCycle::State ForceCycle::state() const {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   State state = state_;
   state.energy = device_.energy();
   state.tolerance = device_.tolerance();

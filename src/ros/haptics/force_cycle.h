@@ -3,7 +3,6 @@
 #include <geometry_msgs/WrenchStamped.h>
 #include <ros/node_handle.h>
 
-#include <mutex>
 #include <string>
 
 #include "ros/haptics/device_axes.h"
@@ -11,7 +10,7 @@
 #include "ros/haptics/tick_record.h"
 #include "ros/motion/guard_input.h"
 #include "ros/motion/tool_pose_input.h"
-#include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 
@@ -49,19 +48,19 @@ class ForceCycle {
   std::uint32_t subscribers() const { return publisher_.getNumSubscribers(); }
 
  private:
-  sweep_guard_core::DeviceWrench wrenchAt(const sweep_guard_core::Instant& at);
-  void observe(const sweep_guard_core::ForceInputs& inputs, const sweep_guard_core::Instant& at);
-  void publish(const sweep_guard_core::DeviceWrench& wrench);
+  sweep_guard_core::DeviceWrench wrenchAt(const sweep_guard_core::Instant& at) REQUIRES(mutex_);
+  void observe(const sweep_guard_core::ForceInputs& inputs, const sweep_guard_core::Instant& at) REQUIRES(mutex_);
+  void publish(const sweep_guard_core::DeviceWrench& wrench) REQUIRES(mutex_);
 
   const HapticsParameters& parameters_;
   const ForceCycleSources sources_;
   TickRecord ticks_;
-  mutable sweep_guard_core::PriorityMutex mutex_;  // of what follows
-  sweep_guard_core::ForceRenderer renderer_;
-  sweep_guard_core::PassiveDevice device_;
-  State state_;
-  bool stopped_ = false;
-  boost::shared_ptr<geometry_msgs::WrenchStamped> message_;  // null, or what was published last
+  mutable sweep_guard_core::Mutex mutex_;  // of what follows
+  sweep_guard_core::ForceRenderer renderer_ GUARDED_BY(mutex_);
+  sweep_guard_core::PassiveDevice device_ GUARDED_BY(mutex_);
+  State state_ GUARDED_BY(mutex_);
+  bool stopped_ GUARDED_BY(mutex_) = false;
+  boost::shared_ptr<geometry_msgs::WrenchStamped> message_ GUARDED_BY(mutex_);  // null, or what was published last
   ros::Publisher publisher_;
 };
 

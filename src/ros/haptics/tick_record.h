@@ -4,11 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <mutex>
 #include <optional>
 #include <vector>
 
-#include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/common/quantile.h"
 #include "sweep_guard/common/time.h"
 
@@ -25,7 +24,7 @@ class TickRecord {
   explicit TickRecord(sweep_guard_core::Duration period) : period_(period) {}
 
   void tick(sweep_guard_core::SteadyTime now) {
-    const std::lock_guard lock(mutex_);
+    const sweep_guard_core::Lock lock(mutex_);
     if (ticked_) jitter_[count_++ % kTicks] = std::abs(sweep_guard_core::toSeconds(now - *ticked_ - period_));
     ticked_ = now;
   }
@@ -34,7 +33,7 @@ class TickRecord {
     std::vector<double> jitter;
     jitter.reserve(kTicks);
     {
-      const std::lock_guard lock(mutex_);
+      const sweep_guard_core::Lock lock(mutex_);
       jitter.assign(jitter_.begin(), jitter_.begin() + static_cast<std::ptrdiff_t>(std::min(count_, kTicks)));
     }
     if (jitter.empty()) return {};
@@ -45,10 +44,10 @@ class TickRecord {
   static constexpr size_t kTicks = 1000;
 
   const sweep_guard_core::Duration period_;
-  mutable sweep_guard_core::PriorityMutex mutex_;
-  std::optional<sweep_guard_core::SteadyTime> ticked_;
-  std::array<double, kTicks> jitter_{};
-  size_t count_ = 0;
+  mutable sweep_guard_core::Mutex mutex_;
+  std::optional<sweep_guard_core::SteadyTime> ticked_ GUARDED_BY(mutex_);
+  std::array<double, kTicks> jitter_ GUARDED_BY(mutex_){};
+  size_t count_ GUARDED_BY(mutex_) = 0;
 };
 
 }  // namespace sweep_guard_ros

@@ -144,14 +144,14 @@ void FramePublishers::compare(const std::string& frame, const Node& one, const N
 }
 
 void FramePublishers::found(Conflict conflict) {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   conflicts_[conflict.frame] = std::move(conflict);
   any_ = true;
 }
 
 std::vector<FramePublishers::Conflict> FramePublishers::conflicts(SteadyTime now) const {
   std::vector<Conflict> current;
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   for (auto conflict = conflicts_.begin(); conflict != conflicts_.end();) {
     const bool over = now - conflict->second.found > kShown;
     if (!over) current.push_back(conflict->second);

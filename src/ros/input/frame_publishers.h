@@ -4,11 +4,11 @@
 #include <atomic>
 #include <cstdint>
 #include <map>
-#include <mutex>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
+#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/common/sample_buffer.h"
 #include "sweep_guard/common/time.h"
 
@@ -60,8 +60,8 @@ class FramePublishers {
   void found(Conflict conflict);
 
   std::unordered_map<std::string, Frame> frames_;  // used by the listener only
-  mutable std::mutex mutex_;                       // of the next one
-  mutable std::map<std::string, Conflict> conflicts_;
+  mutable sweep_guard_core::Mutex mutex_;          // of the next one
+  mutable std::map<std::string, Conflict> conflicts_ GUARDED_BY(mutex_);
   mutable std::atomic<bool> any_ = false;
 };
 

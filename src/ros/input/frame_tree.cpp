@@ -22,20 +22,20 @@ std::vector<std::string> chainTo(const std::map<std::string, std::string>& paren
 }  // namespace
 
 void FrameTree::add(const std::string& parent, const std::string& child) {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   std::string& known = parents_[child];
   outdated_ = outdated_ || known != parent;
   known = parent;
 }
 
 void FrameTree::use(const std::string& user, const std::string& target, const std::set<std::string>& sources) {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   uses_[user] = {target, sources};
   outdated_ = true;
 }
 
 bool FrameTree::isUsed(const std::string& child) const {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   if (outdated_) findUsed();
   return used_.count(child) != 0;
 }

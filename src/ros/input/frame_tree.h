@@ -1,9 +1,10 @@
 #pragma once
 
 #include <map>
-#include <mutex>
 #include <set>
 #include <string>
+
+#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 
@@ -27,13 +28,13 @@ class FrameTree {
     std::set<std::string> sources;
   };
 
-  void findUsed() const;
+  void findUsed() const REQUIRES(mutex_);
 
-  mutable std::mutex mutex_;
-  std::map<std::string, std::string> parents_;  // by child
-  std::map<std::string, Uses> uses_;            // by user
-  mutable bool outdated_ = false;               // `used_`
-  mutable std::set<std::string> used_;          // children
+  mutable sweep_guard_core::Mutex mutex_;
+  std::map<std::string, std::string> parents_ GUARDED_BY(mutex_);  // by child
+  std::map<std::string, Uses> uses_ GUARDED_BY(mutex_);            // by user
+  mutable bool outdated_ GUARDED_BY(mutex_) = false;               // `used_`
+  mutable std::set<std::string> used_ GUARDED_BY(mutex_);          // children
 };
 
 }  // namespace sweep_guard_ros

@@ -78,12 +78,12 @@ void Frames::onTransforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& ev
 }
 
 void Frames::checkClock() {
-  const std::lock_guard lock(clock_mutex_);
+  const sweep_guard_core::Lock lock(clock_mutex_);
   if (clock_.hasGoneBack(now())) buffer_.clear();
 }
 
 void Frames::checkStamp(const ros::Time& stamp) {
-  const std::lock_guard lock(clock_mutex_);
+  const sweep_guard_core::Lock lock(clock_mutex_);
   const std::string refusal = clock_.refusal(fromMsg(stamp), now());
   if (!refusal.empty()) throw sweep_guard_core::InvalidInput(refusal);
 }
@@ -112,7 +112,7 @@ bool Frames::isHeldBack(const geometry_msgs::TransformStamped& transform, const 
       known->second.header.frame_id == transform.header.frame_id && known->second.transform == transform.transform;
   known->second = transform;
   {
-    const std::lock_guard lock(changes_mutex_);
+    const sweep_guard_core::Lock lock(changes_mutex_);
     if (same) return held_back_.count(child) != 0;
     if (!tree_.isUsed(child)) return false;
     if (held_back_.empty()) held_back_since_ = std::chrono::steady_clock::now();
@@ -124,19 +124,19 @@ bool Frames::isHeldBack(const geometry_msgs::TransformStamped& transform, const 
 }
 
 std::uint64_t Frames::staticChanges() const {
-  const std::lock_guard lock(changes_mutex_);
+  const sweep_guard_core::Lock lock(changes_mutex_);
   return static_changes_;
 }
 
 bool Frames::holdsBack(sweep_guard_core::Duration longer_than) const {
-  const std::lock_guard lock(changes_mutex_);
+  const sweep_guard_core::Lock lock(changes_mutex_);
   return !held_back_.empty() && std::chrono::steady_clock::now() - held_back_since_ > longer_than;
 }
 
 bool Frames::applyStaticChanges() {
   std::map<std::string, StaticChange> changes;
   {
-    const std::lock_guard lock(changes_mutex_);
+    const sweep_guard_core::Lock lock(changes_mutex_);
     std::swap(changes, held_back_);
   }
   for (const auto& [child, change] : changes) {
@@ -155,7 +155,7 @@ void Frames::use(const std::string& user, const std::string& target, const std::
 void Frames::moved() {
   std::shared_ptr<Gate<>> on_move;
   {
-    const std::lock_guard lock(moves_mutex_);
+    const sweep_guard_core::Lock lock(moves_mutex_);
     on_move = on_move_;
   }
   if (on_move) on_move->pass();
@@ -164,7 +164,7 @@ void Frames::moved() {
 std::shared_ptr<void> Frames::onMove(std::function<void()> callback) {
   const auto gate = std::make_shared<Gate<>>(std::move(callback));
   const auto set = [this](const std::shared_ptr<Gate<>>& next) {
-    const std::lock_guard lock(moves_mutex_);
+    const sweep_guard_core::Lock lock(moves_mutex_);
     on_move_ = next;
   };
   set(gate);

@@ -8,7 +8,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
@@ -21,6 +20,7 @@
 #include "ros/threads/gate.h"
 #include "ros/threads/queue_thread.h"
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/common/time.h"
 
 namespace sweep_guard_ros {
@@ -113,17 +113,17 @@ class Frames {
   };
   std::map<std::string, geometry_msgs::TransformStamped> static_transforms_;  // by child; used by the listener only
   FrameTree tree_;
-  std::mutex moves_mutex_;  // of the next one
-  std::shared_ptr<Gate<>> on_move_;
-  mutable std::mutex changes_mutex_;               // of the next ones
-  std::map<std::string, StaticChange> held_back_;  // by child
-  sweep_guard_core::SteadyTime held_back_since_;
-  std::uint64_t static_changes_ = 0;
+  sweep_guard_core::Mutex moves_mutex_;  // of the next one
+  std::shared_ptr<Gate<>> on_move_ GUARDED_BY(moves_mutex_);
+  mutable sweep_guard_core::Mutex changes_mutex_;                             // of the next ones
+  std::map<std::string, StaticChange> held_back_ GUARDED_BY(changes_mutex_);  // by child
+  sweep_guard_core::SteadyTime held_back_since_ GUARDED_BY(changes_mutex_);
+  std::uint64_t static_changes_ GUARDED_BY(changes_mutex_) = 0;
   std::set<std::string> known_;  // frames in the buffer
   FramePublishers publishers_;
   LogThrottle log_;
-  std::mutex clock_mutex_;  // of the next one
-  TransformClock clock_;
+  sweep_guard_core::Mutex clock_mutex_;  // of the next one
+  TransformClock clock_ GUARDED_BY(clock_mutex_);
   tf2_ros::Buffer buffer_;
   QueueThread thread_;  // before the subscribers, which use its queue
   BoundedSubscriber moving_;

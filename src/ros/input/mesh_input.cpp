@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <mutex>
 
 #include "ros/input/future_stamp.h"
 #include "sweep_guard/common/error.h"
@@ -111,14 +110,14 @@ void MeshInput::pushToConversion(const std::string& id, const Worker::Job& job) 
 
 // Counts a message that is to go through converting_. One that needs no conversion only follows those that do.
 bool MeshInput::enterConversion(const std::string& id, bool needed) {
-  const std::lock_guard lock(conversion_mutex_);
+  const sweep_guard_core::Lock lock(conversion_mutex_);
   if (!needed && in_conversion_.count(id) == 0) return false;
   ++in_conversion_[id];
   return true;
 }
 
 void MeshInput::leaveConversion(const std::string& id) {
-  const std::lock_guard lock(conversion_mutex_);
+  const sweep_guard_core::Lock lock(conversion_mutex_);
   const auto messages = in_conversion_.find(id);
   if (--messages->second == 0) in_conversion_.erase(messages);
 }
@@ -175,19 +174,19 @@ TriangleMesh MeshInput::meshOf(const sweep_guard::DeformableMesh& msg) const {
 // The clock of a simulation may be silent for a while, and a latched mesh is not sent again.
 void MeshInput::keepIfEarly(const sweep_guard::DeformableMesh::ConstPtr& msg, SteadyTime received) {
   if (!ros::Time::isSimTime() || fromMsg(msg->header.stamp) <= latestStamp()) return;
-  const std::lock_guard lock(early_mutex_);
+  const sweep_guard_core::Lock lock(early_mutex_);
   size_t bytes = sizeOf(*msg);
   for (const auto& [id, early] : early_) bytes += sizeOf(*early.msg);
   if (early_.size() < kMaxEarly && bytes <= max_waiting_bytes_) early_[msg->id] = {msg, received};
 }
 
 void MeshInput::forgetEarly(const std::string& id) {
-  const std::lock_guard lock(early_mutex_);
+  const sweep_guard_core::Lock lock(early_mutex_);
   early_.erase(id);
 }
 
 void MeshInput::takeEarly() {
-  const std::lock_guard lock(early_mutex_);
+  const sweep_guard_core::Lock lock(early_mutex_);
   for (const auto& [id, early] : early_) {
     if (fromMsg(early.msg->header.stamp) > latestStamp()) continue;
     storing_.push({[this, id = id] { storeEarly(id); }, [] {}, kOverhead + id.size()});
@@ -208,7 +207,7 @@ void MeshInput::storeEarly(const std::string& id) {
 }
 
 std::optional<MeshInput::EarlyMesh> MeshInput::dueOf(const std::string& id) {
-  const std::lock_guard lock(early_mutex_);
+  const sweep_guard_core::Lock lock(early_mutex_);
   const auto early = early_.find(id);
   if (early == early_.end() || fromMsg(early->second.msg->header.stamp) > latestStamp()) return {};
   EarlyMesh due = std::move(early->second);

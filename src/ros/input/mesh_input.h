@@ -5,7 +5,6 @@
 
 #include <atomic>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
@@ -17,6 +16,7 @@
 #include "ros/parameters/parameters.h"
 #include "ros/process/log_throttle.h"
 #include "ros/threads/queue_thread.h"
+#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {
@@ -87,13 +87,13 @@ class MeshInput {
   sweep_guard_core::InputRecord mesh_record_;
   sweep_guard_core::InputRecord vertices_record_;
   std::atomic<std::uint64_t> dropped_ = 0;
-  std::mutex conversion_mutex_;
-  std::map<std::string, size_t> in_conversion_;  // by id: messages that converting_ has
-  std::mutex early_mutex_;
-  std::map<std::string, EarlyMesh> early_;  // by id
-  Worker storing_;                          // before what pushes jobs
-  Worker converting_;                       // before the thread that pushes jobs
-  QueueThread thread_;                      // before the subscribers, which use its queue
+  sweep_guard_core::Mutex conversion_mutex_;
+  std::map<std::string, size_t> in_conversion_ GUARDED_BY(conversion_mutex_);  // by id: messages that converting_ has
+  sweep_guard_core::Mutex early_mutex_;
+  std::map<std::string, EarlyMesh> early_ GUARDED_BY(early_mutex_);  // by id
+  Worker storing_;                                                   // before what pushes jobs
+  Worker converting_;                                                // before the thread that pushes jobs
+  QueueThread thread_;                                               // before the subscribers, which use its queue
   BoundedSubscriber mesh_;
   BoundedSubscriber vertices_;
 };

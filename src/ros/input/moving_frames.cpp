@@ -16,7 +16,7 @@ constexpr size_t kMaxWanted = 8192;  // as many poses of the tool wait
 }  // namespace
 
 MovingFrames::Poses MovingFrames::locate(const std::set<std::string>& frames, Time stamp) {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   Poses X_WM;
   std::set<std::string> moving;
   for (const std::string& frame : frames) {
@@ -57,7 +57,7 @@ MovingFrames::Poses MovingFrames::resting(const std::set<std::string>& frames) c
 }
 
 void MovingFrames::sample() {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   bool moved = false;
   for (const auto& [frame, followed] : followed_) moved = follow(frame) || moved;
   if (!moved) return;
@@ -66,7 +66,7 @@ void MovingFrames::sample() {
 }
 
 std::set<std::string> MovingFrames::applyStaticChanges(Time from) {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   std::set<std::string> anew;
   if (!dependencies_.frames.applyStaticChanges()) return anew;
   for (auto& [frame, followed] : followed_) {
@@ -158,8 +158,9 @@ void MovingFrames::report(const std::string& frame, const FrameError& error) {
 }
 
 void MovingFrames::forgetWanted() {
-  const auto is_known = [&](const auto& followed) { return wanted_.front() <= followed.second.newest.stamp; };
-  while (!wanted_.empty() && std::all_of(followed_.begin(), followed_.end(), is_known)) wanted_.pop_front();
+  Time known_until = Time::max();
+  for (const auto& [frame, followed] : followed_) known_until = std::min(known_until, followed.newest.stamp);
+  while (!wanted_.empty() && wanted_.front() <= known_until) wanted_.pop_front();
   while (wanted_.size() > kMaxWanted) wanted_.pop_front();
 }
 

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <deque>
 #include <map>
-#include <mutex>
 #include <set>
 #include <string>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "monitor/work_queue.h"
 #include "ros/input/frames.h"
 #include "ros/process/log_throttle.h"
+#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/guard/frame_motion.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
@@ -56,20 +56,21 @@ class MovingFrames {
         anew_from;  // its last change of place by a static transform: earlier poses are known no more
   };
 
-  bool follow(const std::string& frame);
-  bool follow(const std::string& frame, const NewestPose& newest);
-  bool placeAnew(const std::string& frame, Followed& followed, sweep_guard_core::Time from);
-  void sampleAt(const std::string& frame, sweep_guard_core::Time stamp);
-  void keepOnly(const std::set<std::string>& moving);
+  bool follow(const std::string& frame) REQUIRES(mutex_);
+  bool follow(const std::string& frame, const NewestPose& newest) REQUIRES(mutex_);
+  bool placeAnew(const std::string& frame, Followed& followed, sweep_guard_core::Time from) REQUIRES(mutex_);
+  void sampleAt(const std::string& frame, sweep_guard_core::Time stamp) REQUIRES(mutex_);
+  void keepOnly(const std::set<std::string>& moving) REQUIRES(mutex_);
   void report(const std::string& frame, const FrameError& error);
-  void forgetWanted();
+  void forgetWanted() REQUIRES(mutex_);
 
   const std::string fixed_frame_;
   const MovingFramesDependencies dependencies_;
-  std::mutex mutex_;
-  std::map<std::string, Followed> followed_;
-  std::deque<sweep_guard_core::Time> wanted_;         // stamps of poses at which one of them is not known yet
-  std::vector<sweep_guard_core::FramePose> samples_;  // of one of them
+  sweep_guard_core::Mutex mutex_;
+  std::map<std::string, Followed> followed_ GUARDED_BY(mutex_);
+  std::deque<sweep_guard_core::Time> wanted_
+      GUARDED_BY(mutex_);  // stamps of poses at which one of them is not known yet
+  std::vector<sweep_guard_core::FramePose> samples_ GUARDED_BY(mutex_);  // of one of them
   LogThrottle log_;
 };
 

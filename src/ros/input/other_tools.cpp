@@ -130,7 +130,7 @@ OtherTools::Surface OtherTools::surfaceFrom(const std::string& name, const sweep
 void OtherTools::hear(size_t tool, const sweep_guard::ToolSurface& msg) {
   const std::string& name = tools_[tool].name;
   {
-    const std::lock_guard lock(mutex_);
+    const sweep_guard_core::Lock lock(mutex_);
     Tool& known = tools_[tool];
     if (known.bodies > 0 && known.run_id == msg.run_id && known.revision == msg.revision) return;
     known.bodies = 0;
@@ -161,7 +161,7 @@ void OtherTools::take(size_t tool, const Surface& surface) {
   } catch (const InvalidInput& error) {
     return refuse(tools_[tool].name, error.what());
   }
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   Tool& known = tools_[tool];
   known.run_id = surface.run_id;
   known.revision = surface.revision;
@@ -172,7 +172,7 @@ void OtherTools::take(size_t tool, const Surface& surface) {
 
 void OtherTools::hear(size_t tool, const sweep_guard::ToolBodies& msg) {
   const sweep_guard_core::Timestamps timestamps{fromMsg(msg.header.stamp), std::chrono::steady_clock::now()};
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   Tool& known = tools_[tool];
   if (known.bodies == 0 || msg.run_id != known.run_id || msg.revision != known.revision)
     throw InvalidInput("its surface has not come");

@@ -5,7 +5,6 @@
 
 #include <functional>
 #include <map>
-#include <mutex>
 #include <string>
 #include <vector>
 
@@ -16,6 +15,7 @@
 #include "ros/parameters/parameters.h"
 #include "ros/process/log_throttle.h"
 #include "ros/threads/queue_thread.h"
+#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/guard/frame_motion.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
@@ -62,7 +62,7 @@ class OtherTools {
   const size_t max_triangles_;
   const OtherToolsDependencies dependencies_;
   LogThrottle log_;
-  std::mutex mutex_;  // of the tools
+  sweep_guard_core::Mutex mutex_;  // of the tools
   std::vector<Tool> tools_;
   QueueThread thread_;  // before the subscribers, which use its queue
   std::vector<BoundedSubscriber> subscribers_;

@@ -13,7 +13,7 @@ constexpr sweep_guard_core::Duration kTimePerByte(100);  // twice what convertin
 
 Worker::~Worker() {
   {
-    const std::lock_guard lock(mutex_);
+    const sweep_guard_core::Lock lock(mutex_);
     stopping_ = true;
   }
   changed_.notify_all();
@@ -30,7 +30,7 @@ void Worker::push(Job job) {
   std::vector<Job> dropped;
   bool fits = true;
   {
-    const std::lock_guard lock(mutex_);
+    const sweep_guard_core::Lock lock(mutex_);
     while (fits && job.bytes > 0 && bytes_ + job.bytes > max_bytes_) {
       const auto oldest = nextToDrop();
       fits = oldest == jobs_.end() || oldest->replaceable || !job.replaceable;
@@ -43,7 +43,7 @@ void Worker::push(Job job) {
   for (const Job& one : dropped) one.drop();
   if (!fits) return job.drop();
   {
-    const std::lock_guard lock(mutex_);
+    const sweep_guard_core::Lock lock(mutex_);
     jobs_.push_back(std::move(job));
     bytes_ += jobs_.back().bytes;
   }
@@ -67,9 +67,9 @@ void Worker::runOrDrop(const Job& job) {
 
 void Worker::run() {
   top_->enter();
-  std::unique_lock lock(mutex_);
+  sweep_guard_core::Lock lock(mutex_);
   while (true) {
-    changed_.wait(lock, [this] { return stopping_ || !jobs_.empty(); });
+    while (!stopping_ && jobs_.empty()) changed_.wait(lock);
     if (stopping_) return;
     {
       const Job job = std::move(jobs_.front());

@@ -3,10 +3,10 @@
 #include <condition_variable>
 #include <deque>
 #include <functional>
-#include <mutex>
 #include <thread>
 
 #include "ros/threads/supervisor.h"
+#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 
@@ -34,14 +34,14 @@ class Worker {
  private:
   void run();
   static void runOrDrop(const Job& job);
-  std::deque<Job>::iterator nextToDrop();
+  std::deque<Job>::iterator nextToDrop() REQUIRES(mutex_);
 
   const size_t max_bytes_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<Job> jobs_;
-  size_t bytes_ = 0;  // of jobs_
-  bool stopping_ = false;
+  sweep_guard_core::Mutex mutex_;
+  std::condition_variable_any changed_;
+  std::deque<Job> jobs_ GUARDED_BY(mutex_);
+  size_t bytes_ GUARDED_BY(mutex_) = 0;  // of jobs_
+  bool stopping_ GUARDED_BY(mutex_) = false;
   ThreadTop* top_ = nullptr;
   std::thread thread_;
 };

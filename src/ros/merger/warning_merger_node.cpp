@@ -82,7 +82,7 @@ WarningMergerNode::WarningMergerNode(const ros::NodeHandle& node, const ros::Nod
   considered_ = ros::NodeHandle(private_node).advertise<std_msgs::Bool>("considered_warning", 10);
   updater_.setHardwareID("none");
   for (size_t guard = 0; guard < newest_.size(); ++guard) {
-    subscribers_.push_back(subscribe(node, guard));
+    subscribers_.push_back(subscribe(node, guard, merger_.guards()[guard] + "/warning"));
     updater_.add(merger_.guards()[guard], [this, guard](Status& status) { report(status, guard); });
   }
   ticks_.every(kTickPeriod, [this] { publish(); });
@@ -95,7 +95,7 @@ WarningMergerNode::~WarningMergerNode() {
   reports_.stop();
   master_watch_.stop();  // its thread uses the supervisor, which is declared after it
   {
-    const std::lock_guard lock(mutex_);
+    const sweep_guard_core::Lock lock(mutex_);
     ending_ = true;
   }
   publish();
@@ -111,8 +111,7 @@ void WarningMergerNode::start() {
   supervisor_.start();
 }
 
-BoundedSubscriber WarningMergerNode::subscribe(const ros::NodeHandle& node, size_t guard) {
-  const std::string topic = merger_.guards()[guard] + "/warning";
+BoundedSubscriber WarningMergerNode::subscribe(const ros::NodeHandle& node, size_t guard, const std::string& topic) {
   const auto refuse = [this, topic](const std::string& reason) {
     log_.error(topic, "message on " + topic + " refused: " + reason);
   };
@@ -133,7 +132,7 @@ BoundedSubscriber WarningMergerNode::subscribe(const ros::NodeHandle& node, size
 void WarningMergerNode::hear(size_t guard, const sweep_guard::Warning& message) {
   HeardWarning warning = heardFrom(message);
   {
-    const std::lock_guard lock(mutex_);
+    const sweep_guard_core::Lock lock(mutex_);
     merger_.hear(guard, std::move(warning));
     newest_[guard] = message;
   }
@@ -141,7 +140,7 @@ void WarningMergerNode::hear(size_t guard, const sweep_guard::Warning& message) 
 }
 
 void WarningMergerNode::publish() {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   const sweep_guard_core::Instant at = now();
   sweep_guard::Warning next = merged(at);
   if (!differ(next, published_) && at.steady - published_at_ < kPeriod) return;
@@ -162,7 +161,7 @@ void WarningMergerNode::publish() {
 }
 
 void WarningMergerNode::publishFlags() {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   reflex_.publish(flag(published_.reflex != 0));
   considered_.publish(flag(published_.considered != 0));
 }
@@ -188,7 +187,7 @@ sweep_guard::Warning WarningMergerNode::merged(const sweep_guard_core::Instant& 
 }
 
 bool WarningMergerNode::aGuardIsSilent() const {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   const sweep_guard_core::Instant at = now();
   for (size_t guard = 0; guard < newest_.size(); ++guard) {
     if (!merger_.silence(guard, at).empty()) return true;
@@ -197,7 +196,7 @@ bool WarningMergerNode::aGuardIsSilent() const {
 }
 
 void WarningMergerNode::report(Status& status, size_t guard) {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   const std::string silence = merger_.silence(guard, now());
   const auto level = static_cast<WarningLevel>(newest_[guard].level);
   status.summary(silence.empty() ? DiagnosticStatus::OK : DiagnosticStatus::ERROR,

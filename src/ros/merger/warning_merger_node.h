@@ -15,7 +15,7 @@
 #include "ros/process/log_throttle.h"
 #include "ros/threads/queue_thread.h"
 #include "ros/threads/timer_thread.h"
-#include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/ros/parameters/parameter_reader.h"
 
 namespace sweep_guard_ros {
@@ -39,11 +39,11 @@ class WarningMergerNode {
   WarningMergerNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node, Process process,
                     ParameterReader read);
 
-  BoundedSubscriber subscribe(const ros::NodeHandle& node, size_t guard);
+  BoundedSubscriber subscribe(const ros::NodeHandle& node, size_t guard, const std::string& topic);
   void hear(size_t guard, const sweep_guard::Warning& message);
   void publish();
   void publishFlags();
-  sweep_guard::Warning merged(const sweep_guard_core::Instant& now) const;
+  sweep_guard::Warning merged(const sweep_guard_core::Instant& now) const REQUIRES(mutex_);
   void report(Status& status, size_t guard);
   bool aGuardIsSilent() const;
 
@@ -52,12 +52,12 @@ class WarningMergerNode {
   Supervisor supervisor_;     // before all threads
   ParameterReader::Settings settings_;
   LogThrottle log_;
-  mutable sweep_guard_core::PriorityMutex mutex_;  // of the next five
-  sweep_guard_core::WarningMerger merger_;
-  std::vector<sweep_guard::Warning> newest_;     // by guard
-  sweep_guard::Warning published_;               // newest
-  sweep_guard_core::SteadyTime published_at_{};  // its time
-  bool ending_ = false;
+  mutable sweep_guard_core::Mutex mutex_;  // of the next five
+  sweep_guard_core::WarningMerger merger_ GUARDED_BY(mutex_);
+  std::vector<sweep_guard::Warning> newest_ GUARDED_BY(mutex_);     // by guard
+  sweep_guard::Warning published_ GUARDED_BY(mutex_);               // newest
+  sweep_guard_core::SteadyTime published_at_ GUARDED_BY(mutex_){};  // its time
+  bool ending_ GUARDED_BY(mutex_) = false;
   ros::Publisher publisher_;
   ros::Publisher reflex_;
   ros::Publisher considered_;

@@ -36,7 +36,7 @@ CommandCycle::CommandCycle(const ros::NodeHandle& node, const ros::NodeHandle& p
 
 void CommandCycle::onCommand(const CommandPort::Received& received) {
   record_.received(received.timestamps);
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   port_->take(received);
   period_.add(received.timestamps.received);
   const Instant at = now();
@@ -56,18 +56,18 @@ CommandCycle::~CommandCycle() { stop(); }
 // The port goes before the thread that calls it.
 void CommandCycle::stop() {
   port_->stop();
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   if (command_ && sent_W_) sendZero(now());
   command_.reset();
 }
 
 void CommandCycle::tick() {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   update(now());
 }
 
 void CommandCycle::publishHold(HoldPublisher& hold) {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   const Instant at = now();
   const bool lets_through = letsThrough(at);
   if (!lets_through) update(at);
@@ -97,7 +97,7 @@ sweep_guard_core::Duration CommandCycle::longestInForce() const {
 }
 
 sweep_guard_core::Duration CommandCycle::period() const {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   return longestInForce();
 }
 
@@ -114,7 +114,7 @@ bool CommandCycle::onRebase(Trigger::Request& /*request*/, Trigger::Response& re
                      parameters_.follower.mode == sweep_guard_core::PoseMode::kIncremental;
   response.message = response.success ? "the next pose moves nothing"
                                       : "command_type is not pose_stamped, or command_mode is not incremental";
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   if (response.success) port_->rebase();
   return true;
 }

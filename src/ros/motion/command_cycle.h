@@ -5,7 +5,6 @@
 
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 
 #include "monitor/input_record.h"
@@ -17,6 +16,7 @@
 #include "ros/motion/status_publisher.h"
 #include "ros/motion/tool_pose_input.h"
 #include "ros/threads/queue_thread.h"
+#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/motion/command_period.h"
 #include "sweep_guard/motion/motion_guard.h"
 
@@ -61,15 +61,16 @@ class CommandCycle {
   void refuse(const std::string& reason);
   ros::ServiceServer advertiseRebase(ros::NodeHandle node);
   bool onRebase(Trigger::Request& request, Trigger::Response& response);
-  void update(const sweep_guard_core::Instant& at);
-  bool letsThrough(const sweep_guard_core::Instant& at) const;
-  sweep_guard_core::Duration longestInForce() const;
-  CommandPort::Cycle cycleAt(const sweep_guard_core::Instant& at) const;
+  void update(const sweep_guard_core::Instant& at) REQUIRES(mutex_);
+  bool letsThrough(const sweep_guard_core::Instant& at) const REQUIRES(mutex_);
+  sweep_guard_core::Duration longestInForce() const REQUIRES(mutex_);
+  CommandPort::Cycle cycleAt(const sweep_guard_core::Instant& at) const REQUIRES(mutex_);
   sweep_guard_core::MotionInputs takeInputs(GuardInput::Newest& newest) const;
-  void limitNewest(const sweep_guard_core::Instant& at, bool only_if_changed);
-  bool waitsForRelease(const sweep_guard_core::MotionInputs& known, const sweep_guard_core::Instant& at) const;
-  void sendZero(const sweep_guard_core::Instant& at);
-  void halt(const sweep_guard_core::Instant& at);
+  void limitNewest(const sweep_guard_core::Instant& at, bool only_if_changed) REQUIRES(mutex_);
+  bool waitsForRelease(const sweep_guard_core::MotionInputs& known, const sweep_guard_core::Instant& at) const
+      REQUIRES(mutex_);
+  void sendZero(const sweep_guard_core::Instant& at) REQUIRES(mutex_);
+  void halt(const sweep_guard_core::Instant& at) REQUIRES(mutex_);
 
   const MotionParameters& parameters_;
   const CommandCycleSources sources_;
@@ -77,14 +78,16 @@ class CommandCycle {
   const std::string topic_;  // resolved, of the commands
   sweep_guard_core::InputRecord record_;
   LogThrottle log_;
-  mutable sweep_guard_core::PriorityMutex mutex_;  // of what follows
-  sweep_guard_core::MotionGuard guard_;
-  sweep_guard_core::CommandPeriod period_;
-  std::optional<sweep_guard_core::Timestamps> command_;  // newest one; empty: nothing is to be sent
-  sweep_guard_core::Permission permission_ = sweep_guard_core::Permission::kStop;  // of what was sent last
-  std::optional<sweep_guard_core::Twist> sent_W_;  // for the newest command; empty: zero, for it is refused
-  sweep_guard_core::SteadyTime sent_;
-  int halts_ = 0;  // zeros since the commands have stopped
+  mutable sweep_guard_core::Mutex mutex_;  // of what follows
+  sweep_guard_core::MotionGuard guard_ GUARDED_BY(mutex_);
+  sweep_guard_core::CommandPeriod period_ GUARDED_BY(mutex_);
+  std::optional<sweep_guard_core::Timestamps> command_ GUARDED_BY(mutex_);  // newest one; empty: nothing is to be sent
+  sweep_guard_core::Permission permission_ GUARDED_BY(mutex_) =
+      sweep_guard_core::Permission::kStop;  // of what was sent last
+  std::optional<sweep_guard_core::Twist> sent_W_
+      GUARDED_BY(mutex_);  // for the newest command; empty: zero, for it is refused
+  sweep_guard_core::SteadyTime sent_ GUARDED_BY(mutex_);
+  int halts_ GUARDED_BY(mutex_) = 0;  // zeros since the commands have stopped
 
   QueueThread thread_;  // before the port and the service, which use its queue
   std::unique_ptr<CommandPort> port_;

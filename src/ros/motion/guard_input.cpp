@@ -83,12 +83,12 @@ BoundedSubscriber GuardInput::subscribe(const ros::NodeHandle& node, const std::
 }
 
 GuardInput::Newest GuardInput::newest() const {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   return newest_;
 }
 
 sweep_guard_core::MotionInputs GuardInput::inputs() const {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   return newest_.inputs;
 }
 
@@ -104,7 +104,7 @@ void GuardInput::acceptPlanes(const ros::MessageEvent<const sweep_guard::Proximi
   const auto planes = plane_sets_.take();
   readPlanes(*msg, std::chrono::steady_clock::now(), *planes);
   checkStamp(planes->timestamps);
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   newest_.inputs.planes = planes;
   newest_.planes.swap(msg);
 }
@@ -112,7 +112,7 @@ void GuardInput::acceptPlanes(const ros::MessageEvent<const sweep_guard::Proximi
 void GuardInput::acceptTool(const ros::MessageEvent<const sweep_guard::ToolBalls>& event) {
   checkFrame(event.getConstMessage()->header.frame_id, tool_frame_);
   auto tool = toolFrom(*event.getConstMessage());
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   newest_.inputs.tool.swap(tool);
 }
 
@@ -121,14 +121,14 @@ void GuardInput::acceptWarning(const ros::MessageEvent<const sweep_guard::Warnin
   const bool known = msg.level <= sweep_guard::Warning::CONTACT;
   const auto level =
       known ? static_cast<sweep_guard_core::WarningLevel>(msg.level) : sweep_guard_core::WarningLevel::kUnknown;
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   newest_.inputs.warning = PermissionInputs::GuardWarning{level, msg.reasons, std::chrono::steady_clock::now()};
 }
 
 // When time went back, those before are silent soon.
 void GuardInput::checkStamp(const sweep_guard_core::Timestamps& timestamps) const {
   if (liesInFuture(timestamps.stamp)) throw InvalidInput(kFutureStampText);
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   if (!newest_.inputs.planes) return;
   const sweep_guard_core::Timestamps& before = newest_.inputs.planes->timestamps;
   if (timestamps.stamp < before.stamp && timestamps.received - before.received <= silence_) {

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstddef>
-#include <mutex>
 #include <string>
 
 #include "common/pool.h"
@@ -15,6 +14,7 @@
 #include "ros/motion/guard_source.h"
 #include "ros/process/log_throttle.h"
 #include "ros/threads/queue_thread.h"
+#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/motion/motion_guard.h"
 
 namespace sweep_guard_ros {
@@ -59,8 +59,8 @@ class GuardInput {
   const std::string fixed_frame_;
   const std::string tool_frame_;
   const sweep_guard_core::Duration silence_;
-  mutable sweep_guard_core::PriorityMutex mutex_;
-  Newest newest_;
+  mutable sweep_guard_core::Mutex mutex_;
+  Newest newest_ GUARDED_BY(mutex_);
   sweep_guard_core::Pool<sweep_guard_core::PlaneSet> plane_sets_;  // used by the thread that receives
   sweep_guard_core::InputRecord planes_record_;
   sweep_guard_core::InputRecord tool_record_;

@@ -37,7 +37,7 @@ OutputWatch::~OutputWatch() {
 }
 
 std::vector<std::string> OutputWatch::otherPublishers() const {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   return others_;
 }
 
@@ -49,7 +49,7 @@ void OutputWatch::check() {
     for (const std::string& node : publishersIn(state->value, topic_)) {
       if (node != ros::this_node::getName()) others.push_back(sweep_guard_core::printable(node));
     }
-    const std::lock_guard lock(mutex_);
+    const sweep_guard_core::Lock lock(mutex_);
     others_ = std::move(others);
   } catch (const XmlRpc::XmlRpcException& error) {
     ROS_ERROR_THROTTLE(60.0, "the ROS master's answer cannot be read: %s", error.getMessage().c_str());

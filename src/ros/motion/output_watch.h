@@ -1,12 +1,12 @@
 #pragma once
 
 #include <atomic>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "ros/connection/xml_rpc_call.h"
 #include "ros/threads/timer_thread.h"
+#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 
@@ -31,8 +31,8 @@ class OutputWatch {
   const std::string topic_;
   std::atomic<bool> stopping_ = false;
   const XmlRpcCall call_;
-  mutable std::mutex mutex_;
-  std::vector<std::string> others_;
+  mutable sweep_guard_core::Mutex mutex_;
+  std::vector<std::string> others_ GUARDED_BY(mutex_);
   TimerThread thread_;
 };
 

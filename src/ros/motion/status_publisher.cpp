@@ -24,7 +24,7 @@ StatusPublisher::StatusPublisher(ros::NodeHandle private_node, std::string fixed
 }
 
 void StatusPublisher::update(sweep_guard::MotionStatus status) {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   const sweep_guard::MotionStatus before = std::exchange(newest_, std::move(status));
   newest_.header.frame_id = fixed_frame_;
   if (before.cause != newest_.cause || before.code != newest_.code) {
@@ -35,17 +35,17 @@ void StatusPublisher::update(sweep_guard::MotionStatus status) {
 }
 
 void StatusPublisher::publishIfDue() {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   if (std::chrono::steady_clock::now() - published_ >= kLongestPause) publish();
 }
 
 sweep_guard::MotionStatus StatusPublisher::newest() const {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   return newest_;
 }
 
 std::map<std::string, std::uint64_t> StatusPublisher::counts() const {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   return counts_;
 }
 

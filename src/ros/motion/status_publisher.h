@@ -5,10 +5,9 @@
 
 #include <cstdint>
 #include <map>
-#include <mutex>
 #include <string>
 
-#include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/common/time.h"
 
 namespace sweep_guard_ros {
@@ -26,15 +25,15 @@ class StatusPublisher {
   std::map<std::string, std::uint64_t> counts() const;  ///< how often each cause began
 
  private:
-  void publish();
-  void log(const sweep_guard::MotionStatus& before);
+  void publish() REQUIRES(mutex_);
+  void log(const sweep_guard::MotionStatus& before) REQUIRES(mutex_);
 
   const std::string fixed_frame_;
-  mutable sweep_guard_core::PriorityMutex mutex_;
-  sweep_guard::MotionStatus newest_;
-  std::map<std::string, std::uint64_t> counts_;
-  sweep_guard_core::SteadyTime published_;
-  sweep_guard_core::SteadyTime logged_;
+  mutable sweep_guard_core::Mutex mutex_;
+  sweep_guard::MotionStatus newest_ GUARDED_BY(mutex_);
+  std::map<std::string, std::uint64_t> counts_ GUARDED_BY(mutex_);
+  sweep_guard_core::SteadyTime published_ GUARDED_BY(mutex_);
+  sweep_guard_core::SteadyTime logged_ GUARDED_BY(mutex_);
   ros::Publisher status_;
   ros::Publisher servo_status_;
 };

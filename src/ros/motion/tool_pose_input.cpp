@@ -42,7 +42,7 @@ ToolPoseInput::ToolPoseInput(const ros::NodeHandle& node, const PoseSource& sour
 }
 
 std::optional<sweep_guard_core::MotionInputs::ToolPose> ToolPoseInput::newest() const {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   return newest_;
 }
 
@@ -79,7 +79,7 @@ void ToolPoseInput::onTransforms() {
 }
 
 void ToolPoseInput::accept(const Eigen::Isometry3d& X_WT, const sweep_guard_core::Timestamps& timestamps) {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   const bool older = newest_ && timestamps.stamp < newest_->timestamps.stamp;
   if (older && timestamps.received - newest_->timestamps.received <= silence_) {
     throw InvalidInput("stamp is older than the previous pose's");

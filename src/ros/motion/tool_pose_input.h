@@ -3,7 +3,6 @@
 #include <geometry_msgs/PoseStamped.h>
 
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 
@@ -13,6 +12,7 @@
 #include "ros/motion/guard_source.h"
 #include "ros/process/log_throttle.h"
 #include "ros/threads/queue_thread.h"
+#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/motion/motion_guard.h"
 
 namespace sweep_guard_ros {
@@ -46,8 +46,8 @@ class ToolPoseInput {
   const std::string source_;
   const sweep_guard_core::Duration silence_;
   Frames& frames_;
-  mutable sweep_guard_core::PriorityMutex mutex_;
-  std::optional<sweep_guard_core::MotionInputs::ToolPose> newest_;
+  mutable sweep_guard_core::Mutex mutex_;
+  std::optional<sweep_guard_core::MotionInputs::ToolPose> newest_ GUARDED_BY(mutex_);
   std::optional<sweep_guard_core::Time> last_transform_;  // used by the tf listener's thread only
   sweep_guard_core::InputRecord record_;
   LogThrottle log_;

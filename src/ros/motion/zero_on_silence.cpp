@@ -77,7 +77,7 @@ ZeroOnSilence::~ZeroOnSilence() {
   reports_.stop();
   master_watch_.stop();  // its thread uses the supervisor, which is declared after it
   zeros_.stop();
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   send_zero_();
   flush();
 }
@@ -104,7 +104,7 @@ void ZeroOnSilence::relay(const ros::NodeHandle& node) {
 template <typename Msg>
 void ZeroOnSilence::pass(const boost::shared_ptr<const Msg>& command) {
   if (!isFinite(*command)) return refuse("command is not finite");
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   if (stopping_) return;
   silence_.received(std::chrono::steady_clock::now());
   output_.publish(command);
@@ -113,20 +113,20 @@ void ZeroOnSilence::pass(const boost::shared_ptr<const Msg>& command) {
 
 void ZeroOnSilence::refuse(const std::string& reason) {
   log_.error("refused", reason + ": zero is sent instead");
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   if (stopping_) return;
   send_zero_();
   last_refusal_ = reason;
 }
 
 void ZeroOnSilence::sendZeroIfSilent() {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   if (silence_.silent(std::chrono::steady_clock::now())) send_zero_();
 }
 
 void ZeroOnSilence::report(Status& status) {
   const std::vector<std::string> others = output_watch_->otherPublishers();
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   const bool silent = silence_.silent(std::chrono::steady_clock::now());
   status.summary(silent ? DiagnosticStatus::WARN : DiagnosticStatus::OK,
                  silent ? "no command: zero is sent" : "passed on");

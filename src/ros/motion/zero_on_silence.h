@@ -14,7 +14,7 @@
 #include "ros/process/log_throttle.h"
 #include "ros/threads/queue_thread.h"
 #include "ros/threads/timer_thread.h"
-#include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/motion/command_period.h"
 #include "sweep_guard/ros/parameters/parameter_reader.h"
 
@@ -50,11 +50,11 @@ class ZeroOnSilence {
   ParameterReader::Settings settings_;
   MasterWatch master_watch_;  // before what registers at the master
   LogThrottle log_;
-  sweep_guard_core::PriorityMutex mutex_;  // of the next four: commands and zeros leave in the order of their decisions
-  sweep_guard_core::CommandSilence silence_;
+  sweep_guard_core::Mutex mutex_;  // of the next four: commands and zeros leave in the order of their decisions
+  sweep_guard_core::CommandSilence silence_ GUARDED_BY(mutex_);
   std::function<void()> send_zero_;
-  std::uint64_t passed_ = 0;
-  std::string last_refusal_;
+  std::uint64_t passed_ GUARDED_BY(mutex_) = 0;
+  std::string last_refusal_ GUARDED_BY(mutex_);
   ros::Publisher output_;
   diagnostic_updater::Updater updater_;
   Supervisor supervisor_;

@@ -6,7 +6,8 @@
 #include <chrono>
 #include <condition_variable>
 #include <memory>
-#include <mutex>
+
+#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -17,9 +18,9 @@ constexpr int kRounds = 3;
 constexpr auto kMaxWait = std::chrono::milliseconds(200);
 
 struct Rounds {
-  std::mutex mutex;
-  std::condition_variable changed;
-  int count = 0;
+  sweep_guard_core::Mutex mutex;
+  std::condition_variable_any changed;
+  int count GUARDED_BY(mutex) = 0;
 };
 
 }  // namespace
@@ -29,15 +30,16 @@ void flush() {
   const auto rounds = std::make_shared<Rounds>();
   const auto& poll_manager = ros::PollManager::instance();
   const auto connection = poll_manager->addPollThreadListener([rounds, poll_manager] {
-    const std::lock_guard lock(rounds->mutex);
+    const sweep_guard_core::Lock lock(rounds->mutex);
     ++rounds->count;
     rounds->changed.notify_all();
     if (rounds->count < kRounds) poll_manager->getPollSet().signal();
   });
   poll_manager->getPollSet().signal();
   {
-    std::unique_lock lock(rounds->mutex);
-    rounds->changed.wait_for(lock, kMaxWait, [&] { return rounds->count >= kRounds; });
+    sweep_guard_core::Lock lock(rounds->mutex);
+    const auto end = std::chrono::steady_clock::now() + kMaxWait;
+    while (rounds->count < kRounds && rounds->changed.wait_until(lock, end) == std::cv_status::no_timeout) continue;
   }
   poll_manager->removePollThreadListener(connection);
 }

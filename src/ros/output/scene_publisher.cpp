@@ -16,13 +16,13 @@ ScenePublisher::ScenePublisher(ros::NodeHandle private_node, const LiveParameter
             *parameters.initial().bodies) {}
 
 void ScenePublisher::passed(const sweep_guard_core::PoseWithFrames& pose) {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   scene_.trail.add(pose.stamp, pose.X_WT.translation());
 }
 
 void ScenePublisher::swept(const sweep_guard_core::PoseWithFrames& pose,
                            std::shared_ptr<const sweep_guard_core::SweepReport> report) {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   scene_.X_WT = pose.X_WT;
   scene_.body_poses = pose.bodies;
   scene_.trail.add(pose.stamp, pose.X_WT.translation());
@@ -32,13 +32,13 @@ void ScenePublisher::swept(const sweep_guard_core::PoseWithFrames& pose,
 
 void ScenePublisher::predicted(const sweep_guard_core::PoseWithFrames& from,
                                std::shared_ptr<const sweep_guard_core::Prediction> prediction) {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   scene_.prediction_from_W = from.X_WT.translation();
   scene_.prediction = std::move(prediction);
 }
 
 void ScenePublisher::clear() {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   scene_ = {};
 }
 
@@ -55,7 +55,7 @@ void ScenePublisher::publishView() const {
 MarkerScene ScenePublisher::currentScene() const {
   MarkerScene scene;
   {
-    const std::lock_guard lock(mutex_);
+    const sweep_guard_core::Lock lock(mutex_);
     scene = scene_;
   }
   const auto parameters = parameters_.get();

@@ -4,12 +4,11 @@
 #include <ros/publisher.h>
 
 #include <memory>
-#include <mutex>
 
 #include "ros/output/markers.h"
 #include "ros/output/view_publisher.h"
 #include "ros/parameters/parameters.h"
-#include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {
@@ -39,8 +38,8 @@ class ScenePublisher {
   Markers markers_;
   ros::Publisher marker_publisher_;
   ViewPublisher view_;
-  mutable sweep_guard_core::PriorityMutex mutex_;
-  MarkerScene scene_;
+  mutable sweep_guard_core::Mutex mutex_;
+  MarkerScene scene_ GUARDED_BY(mutex_);
 };
 
 }  // namespace sweep_guard_ros

@@ -37,19 +37,19 @@ TouchesPublisher::TouchesPublisher(ros::NodeHandle private_node)
 
 void TouchesPublisher::swept(const sweep_guard_core::SweepReport& report,
                              const sweep_guard_core::Workpieces& workpieces) {
-  const std::lock_guard lock(map_mutex_);
+  const sweep_guard_core::Lock lock(map_mutex_);
   map_.add(report, workpieces);
 }
 
 void TouchesPublisher::publishIfChanged() {
-  const std::lock_guard lock(publish_mutex_);
+  const sweep_guard_core::Lock lock(publish_mutex_);
   publishLocked();
 }
 
 void TouchesPublisher::reset() {
-  const std::lock_guard lock(publish_mutex_);
+  const sweep_guard_core::Lock lock(publish_mutex_);
   {
-    const std::lock_guard map_lock(map_mutex_);
+    const sweep_guard_core::Lock map_lock(map_mutex_);
     map_.clear();
   }
   publishLocked();
@@ -58,7 +58,7 @@ void TouchesPublisher::reset() {
 void TouchesPublisher::publishLocked() {
   const auto message = boost::make_shared<sweep_guard::Touches>();
   {
-    const std::lock_guard lock(map_mutex_);
+    const sweep_guard_core::Lock lock(map_mutex_);
     if (map_.changes() == published_) return;
     published_ = map_.changes();
     message->header.stamp = toMsg(map_.newest());

@@ -4,10 +4,9 @@
 #include <ros/publisher.h>
 
 #include <cstdint>
-#include <mutex>
 #include <vector>
 
-#include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/interaction/touch_map.h"
 
 namespace sweep_guard_ros {
@@ -24,15 +23,15 @@ class TouchesPublisher {
   void reset();             ///< restarts the counts, and publishes that. Any thread
 
  private:
-  void publishLocked();
+  void publishLocked() REQUIRES(publish_mutex_);
 
   const ros::Publisher publisher_;
-  sweep_guard_core::PriorityMutex map_mutex_;
-  sweep_guard_core::TouchMap map_;
+  sweep_guard_core::Mutex map_mutex_;
+  sweep_guard_core::TouchMap map_ GUARDED_BY(map_mutex_);
 
-  std::mutex publish_mutex_;  // locked before the other; for the members below
-  std::uint64_t published_ = 0;
-  std::vector<sweep_guard_core::ObjectTouches> objects_;
+  sweep_guard_core::Mutex publish_mutex_;  // locked before the other; for the members below
+  std::uint64_t published_ GUARDED_BY(publish_mutex_) = 0;
+  std::vector<sweep_guard_core::ObjectTouches> objects_ GUARDED_BY(publish_mutex_);
 };
 
 }  // namespace sweep_guard_ros

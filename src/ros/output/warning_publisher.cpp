@@ -35,19 +35,19 @@ WarningPublisher::WarningPublisher(ros::NodeHandle private_node, const LiveParam
 }
 
 void WarningPublisher::publishIfChanged() {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   publish(/*only_if_changed=*/true);
 }
 
 void WarningPublisher::publishIfDue() {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   const bool due = std::chrono::steady_clock::now() - published_ >= kPeriod;
   publish(/*only_if_changed=*/!due);
 }
 
 void WarningPublisher::publishFinal() {
   {
-    const std::lock_guard lock(mutex_);
+    const sweep_guard_core::Lock lock(mutex_);
     publish(/*only_if_changed=*/false);
   }
   publishReflex();
@@ -60,7 +60,7 @@ void WarningPublisher::publishReflex() { publishFlag(reflex_publisher_, &sweep_g
 void WarningPublisher::publishConsidered() { publishFlag(considered_publisher_, &sweep_guard::Warning::considered); }
 
 void WarningPublisher::publishFlag(const ros::Publisher& publisher, Flag flag) {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   publish(/*only_if_changed=*/true);
   publisher.publish(flagMessage(message_.*flag != 0));
 }

@@ -4,10 +4,8 @@
 #include <ros/publisher.h>
 #include <sweep_guard/Warning.h>
 
-#include <mutex>
-
 #include "ros/parameters/parameters.h"
-#include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {
@@ -28,7 +26,7 @@ class WarningPublisher {
  private:
   using Flag = sweep_guard::Warning::_reflex_type sweep_guard::Warning::*;
 
-  void publish(bool only_if_changed);
+  void publish(bool only_if_changed) REQUIRES(mutex_);
   void publishFlag(const ros::Publisher& publisher, Flag flag);
 
   const LiveParameters& parameters_;
@@ -37,10 +35,10 @@ class WarningPublisher {
   ros::Publisher reflex_publisher_;
   ros::Publisher considered_publisher_;
 
-  sweep_guard_core::PriorityMutex mutex_;
-  sweep_guard_core::Warning warning_;       // newest
-  sweep_guard::Warning message_;            // published last
-  sweep_guard_core::SteadyTime published_;  // time of that message
+  sweep_guard_core::Mutex mutex_;
+  sweep_guard_core::Warning warning_ GUARDED_BY(mutex_);       // newest
+  sweep_guard::Warning message_ GUARDED_BY(mutex_);            // published last
+  sweep_guard_core::SteadyTime published_ GUARDED_BY(mutex_);  // time of that message
 };
 
 }  // namespace sweep_guard_ros

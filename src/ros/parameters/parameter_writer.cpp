@@ -13,13 +13,13 @@ constexpr auto kMaxWrite = std::chrono::milliseconds(500);
 ParameterWriter::ParameterWriter(const ros::NodeHandle& private_node, MasterThread& thread)
     : node_(private_node), call_(thread.call()) {
   thread.every(kRetryPeriod, [this] {
-    const std::lock_guard lock(mutex_);
+    const sweep_guard_core::Lock lock(mutex_);
     writeWaiting();
   });
 }
 
 bool ParameterWriter::write(const std::map<std::string, ParameterValue>& values) {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   for (const auto& [key, value] : values) waiting_.insert_or_assign(key, value);
   return writeWaiting();
 }

@@ -3,10 +3,10 @@
 #include <ros/node_handle.h>
 
 #include <map>
-#include <mutex>
 #include <string>
 
 #include "ros/threads/master_thread.h"
+#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/ros/parameters/parameter_reader.h"
 
 namespace sweep_guard_ros {
@@ -25,13 +25,13 @@ class ParameterWriter {
   bool write(const std::map<std::string, ParameterValue>& values);
 
  private:
-  bool writeWaiting();
+  bool writeWaiting() REQUIRES(mutex_);
   bool writeOne(const std::string& key, const ParameterValue& value) const;
 
   const ros::NodeHandle node_;
   const XmlRpcCall& call_;
-  std::mutex mutex_;  // held while one writes: an older value must not follow a newer one
-  std::map<std::string, ParameterValue> waiting_;
+  sweep_guard_core::Mutex mutex_;  // held while one writes: an older value must not follow a newer one
+  std::map<std::string, ParameterValue> waiting_ GUARDED_BY(mutex_);
 };
 
 }  // namespace sweep_guard_ros

@@ -361,12 +361,12 @@ LiveParameters::LiveParameters(Parameters initial)
     : initial_(std::make_shared<const Parameters>(std::move(initial))), current_(initial_) {}
 
 std::shared_ptr<const Parameters> LiveParameters::get() const {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   return current_;
 }
 
 void LiveParameters::set(std::shared_ptr<const Parameters> parameters) {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   std::swap(current_, parameters);
 }
 

@@ -4,13 +4,12 @@
 
 #include <map>
 #include <memory>
-#include <mutex>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "ros/tool/tool_model.h"
-#include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/guard/guard.h"
 #include "sweep_guard/interaction/interaction_finder.h"
 #include "sweep_guard/monitor/warning.h"
@@ -113,8 +112,8 @@ class LiveParameters {
 
  private:
   const std::shared_ptr<const Parameters> initial_;
-  mutable sweep_guard_core::PriorityMutex mutex_;
-  std::shared_ptr<const Parameters> current_;
+  mutable sweep_guard_core::Mutex mutex_;
+  std::shared_ptr<const Parameters> current_ GUARDED_BY(mutex_);
 };
 
 }  // namespace sweep_guard_ros

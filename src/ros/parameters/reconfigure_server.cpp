@@ -154,7 +154,7 @@ ReconfigureServer::ReconfigureServer(const ros::NodeHandle& private_node, Servic
 }
 
 ReconfigureServer::History ReconfigureServer::history() const {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   return history_;
 }
 
@@ -164,7 +164,7 @@ bool ReconfigureServer::onSet(Event& event) {
   try {
     change(event.getRequest().config, caller);
   } catch (const std::exception& error) {
-    const std::lock_guard lock(mutex_);
+    const sweep_guard_core::Lock lock(mutex_);
     history_.last_refusal = std::string(error.what()) + " (requested by " + caller + ")";
     publishValues();  // clients that show the request see the current values again
     throw;
@@ -188,7 +188,7 @@ void ReconfigureServer::change(const Config& request, const std::string& caller)
   }
   ROS_INFO("%s changed %s", caller.c_str(), text.c_str());
   {
-    const std::lock_guard lock(mutex_);
+    const sweep_guard_core::Lock lock(mutex_);
     history_.last_change = text + " (by " + caller + ")";
   }
   if (writer_.write(values)) return;

@@ -7,13 +7,13 @@
 
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <string>
 
 #include "ros/parameters/parameter_writer.h"
 #include "ros/parameters/parameters.h"
 #include "ros/service/limited_calls.h"
 #include "ros/service/service_threads.h"
+#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 
@@ -47,8 +47,8 @@ class ReconfigureServer {
   ros::NodeHandle private_node_;
   const LiveParameters& parameters_;
   const Apply apply_;
-  mutable std::mutex mutex_;
-  History history_;
+  mutable sweep_guard_core::Mutex mutex_;
+  History history_ GUARDED_BY(mutex_);
   ParameterWriter writer_;
   ros::Publisher descriptions_;
   ros::Publisher values_;

@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
-#include <mutex>
 #include <string>
 
-#include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 
@@ -20,7 +19,7 @@ class LogThrottle {
 
   /// @param key  kind of the error; those beyond the first four kinds share one count, for names may be made up
   void error(const std::string& key, const std::string& text, Clock::time_point now = Clock::now()) {
-    const std::lock_guard lock(mutex_);
+    const sweep_guard_core::Lock lock(mutex_);
     const bool known = entries_.count(key) != 0 || entries_.size() < kMaxKeys;
     Entry& entry = entries_[known ? key : ""];
     if (now - entry.newest > kQuiet) entry = {};
@@ -47,8 +46,8 @@ class LogThrottle {
     std::chrono::seconds interval{1};
     int suppressed = 0;
   };
-  sweep_guard_core::PriorityMutex mutex_;
-  std::map<std::string, Entry> entries_;
+  sweep_guard_core::Mutex mutex_;
+  std::map<std::string, Entry> entries_ GUARDED_BY(mutex_);
 };
 
 }  // namespace sweep_guard_ros

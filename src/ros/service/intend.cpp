@@ -146,7 +146,7 @@ void IntendService::checkLinks(const sweep_guard::Intend& intend) const {
 }
 
 void IntendService::publishIfChanged() {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   const auto intentions = dependencies_.intentions.at(std::chrono::steady_clock::now());
   if (intentions == published_) return;
   published_ = intentions;
@@ -157,7 +157,7 @@ void IntendService::publishIfChanged() {
 
 void IntendService::publish(const std::string& refusal, bool only_if_changed) {
   {
-    const std::lock_guard lock(mutex_);
+    const sweep_guard_core::Lock lock(mutex_);
     if (!only_if_changed || refusal != refusal_) published_.reset();
     refusal_ = refusal;
   }

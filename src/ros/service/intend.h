@@ -6,7 +6,6 @@
 #include <sweep_guard/SetIntent.h>
 
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
@@ -18,6 +17,7 @@
 #include "ros/process/log_throttle.h"
 #include "ros/service/limited_calls.h"
 #include "ros/service/service_threads.h"
+#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 
@@ -49,9 +49,9 @@ class IntendService {
   void publish(const std::string& refusal, bool only_if_changed);
 
   const IntendDependencies dependencies_;
-  std::mutex mutex_;
-  std::shared_ptr<const sweep_guard_core::Intentions> published_;
-  std::string refusal_;  // of the newest update
+  sweep_guard_core::Mutex mutex_;
+  std::shared_ptr<const sweep_guard_core::Intentions> published_ GUARDED_BY(mutex_);
+  std::string refusal_ GUARDED_BY(mutex_);  // of the newest update
   LogThrottle log_;
   ros::Publisher publisher_;
   LimitedCalls calls_;  // before the server, which uses it

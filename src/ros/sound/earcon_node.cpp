@@ -49,8 +49,8 @@ EarconNode::EarconNode(const ros::NodeHandle& node, const ros::NodeHandle& priva
   settings_ = read.settings();
   updater_.setHardwareID("none");
   updater_.add("sound", [this](Status& status) { report(status); });
-  const auto refuse = [this](const std::string& reason) {
-    log_.error("refused", "message on " + warning_.guards().front() + " refused: " + reason);
+  const auto refuse = [this, topic = warning_.guards().front()](const std::string& reason) {
+    log_.error("refused", "message on " + topic + " refused: " + reason);
   };
   using Event = ros::MessageEvent<const sweep_guard::Warning>;
   subscriber_ = subscribeBounded<sweep_guard::Warning>(
@@ -84,12 +84,12 @@ void EarconNode::start() {
 
 void EarconNode::hear(const sweep_guard::Warning& message) {
   sweep_guard_core::HeardWarning warning = heardFrom(message);
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   warning_.hear(0, std::move(warning));
 }
 
 sweep_guard_core::SoundCue EarconNode::cue() const {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   const sweep_guard_core::MergedWarning warning = warning_.merged(now());
   return {warning.level, warning.time_to_collision, warning.acknowledged};
 }
@@ -105,7 +105,7 @@ void EarconNode::sound() {
     problem = error.what();
     log_.error("player", "no sound: " + problem);
   }
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   sounds_ = heard.level;
   if (player_ || !problem.empty()) problem_ = problem;
 }
@@ -133,7 +133,7 @@ void EarconNode::play(const sweep_guard_core::SoundCue& cue) {
 }
 
 void EarconNode::report(Status& status) const {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   const std::string silence = warning_.silence(0, now());
   status.summary(silence.empty() ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
                  silence.empty() ? styleOf(sounds_).name : silence);

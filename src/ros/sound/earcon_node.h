@@ -17,7 +17,7 @@
 #include "ros/threads/queue_thread.h"
 #include "ros/threads/timer_thread.h"
 #include "sound/earcon.h"
-#include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/ros/parameters/parameter_reader.h"
 
 namespace sweep_guard_ros {
@@ -53,10 +53,10 @@ class EarconNode {
   const double volume_;
   ParameterReader::Settings settings_;
   LogThrottle log_;
-  mutable sweep_guard_core::PriorityMutex mutex_;  // of the next three
-  sweep_guard_core::WarningMerger warning_;        // of one guard
-  std::string problem_;                            // of the player; empty: none
-  sweep_guard_core::WarningLevel sounds_ = sweep_guard_core::WarningLevel::kUnknown;
+  mutable sweep_guard_core::Mutex mutex_;                       // of the next three
+  sweep_guard_core::WarningMerger warning_ GUARDED_BY(mutex_);  // of one guard
+  std::string problem_ GUARDED_BY(mutex_);                      // of the player; empty: none
+  sweep_guard_core::WarningLevel sounds_ GUARDED_BY(mutex_) = sweep_guard_core::WarningLevel::kUnknown;
   // Of the thread of the sound:
   sweep_guard_core::Synthesizer synthesizer_;
   std::optional<SoundPlayer> player_;

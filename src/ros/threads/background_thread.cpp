@@ -4,7 +4,7 @@ namespace sweep_guard_ros {
 
 BackgroundThread::~BackgroundThread() {
   {
-    const std::lock_guard lock(mutex_);
+    const sweep_guard_core::Lock lock(mutex_);
     stopping_ = true;
   }
   changed_.notify_one();
@@ -18,7 +18,7 @@ void BackgroundThread::start(Supervisor& supervisor, const ThreadTraits& traits)
 
 void BackgroundThread::replace(std::function<void()> work) {
   {
-    const std::lock_guard lock(mutex_);
+    const sweep_guard_core::Lock lock(mutex_);
     std::swap(work_, work);
   }
   changed_.notify_one();
@@ -27,9 +27,9 @@ void BackgroundThread::replace(std::function<void()> work) {
 void BackgroundThread::loop() {
   top_->enter();
   lower_();
-  std::unique_lock lock(mutex_);
+  sweep_guard_core::Lock lock(mutex_);
   while (true) {
-    changed_.wait(lock, [this] { return stopping_ || work_; });
+    while (!stopping_ && !work_) changed_.wait(lock);
     if (stopping_) return;
     std::function<void()> work = std::exchange(work_, nullptr);
     lock.unlock();

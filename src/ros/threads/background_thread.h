@@ -4,11 +4,11 @@
 #include <functional>
 #include <future>
 #include <memory>
-#include <mutex>
 #include <thread>
 #include <utility>
 
 #include "ros/threads/supervisor.h"
+#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 
@@ -39,10 +39,10 @@ class BackgroundThread {
 
   void (*const lower_)();
   ThreadTop* top_ = nullptr;  // from start() on
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::function<void()> work_;  // waits to be run
-  bool stopping_ = false;
+  sweep_guard_core::Mutex mutex_;
+  std::condition_variable_any changed_;
+  std::function<void()> work_ GUARDED_BY(mutex_);  // waits to be run
+  bool stopping_ GUARDED_BY(mutex_) = false;
   std::thread thread_;
 };
 

@@ -1,8 +1,9 @@
 #pragma once
 
 #include <functional>
-#include <mutex>
 #include <utility>
+
+#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 
@@ -13,18 +14,18 @@ class Gate {
   explicit Gate(std::function<void(Args...)> callback) : callback_(std::move(callback)) {}
 
   void pass(Args... args) {
-    const std::lock_guard lock(mutex_);
+    const sweep_guard_core::Lock lock(mutex_);
     if (callback_) callback_(args...);
   }
 
   void close() {  ///< waits for a call that is being passed on
-    const std::lock_guard lock(mutex_);
+    const sweep_guard_core::Lock lock(mutex_);
     callback_ = nullptr;
   }
 
  private:
-  std::mutex mutex_;
-  std::function<void(Args...)> callback_;
+  sweep_guard_core::Mutex mutex_;
+  std::function<void(Args...)> callback_ GUARDED_BY(mutex_);
 };
 
 }  // namespace sweep_guard_ros

@@ -12,12 +12,12 @@ void RealTimeRequest::make() {
   const std::string refusal = requestRealTime(priority_, parameter_);
   if (refusal.empty()) return;
   ROS_WARN("%s", refusal.c_str());
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   refusal_ = refusal;
 }
 
 std::string RealTimeRequest::refusal() const {
-  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Lock lock(mutex_);
   return refusal_;
 }
 

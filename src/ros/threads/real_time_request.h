@@ -1,10 +1,9 @@
 #pragma once
 
-#include <mutex>
 #include <string>
 #include <utility>
 
-#include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 
@@ -23,8 +22,8 @@ class RealTimeRequest {
  private:
   const int priority_;
   const std::string parameter_;
-  mutable sweep_guard_core::PriorityMutex mutex_;
-  std::string refusal_;
+  mutable sweep_guard_core::Mutex mutex_;
+  std::string refusal_ GUARDED_BY(mutex_);
 };
 
 }  // namespace sweep_guard_ros

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <mutex>
 #include <string>
 #include <utility>
 
@@ -75,7 +74,7 @@ void Supervisor::failed(const ThreadTraits& thread, const char* what) noexcept {
 }
 
 bool Supervisor::repeated() noexcept {
-  const std::lock_guard lock(failures_mutex_);
+  const sweep_guard_core::Lock lock(failures_mutex_);
   const SteadyTime now = std::chrono::steady_clock::now();
   const bool third = failures_[1] != SteadyTime() && now - failures_[1] <= kRepeated;
   failures_ = {now, failures_[0]};

@@ -9,7 +9,7 @@
 #include "ros/process/log_throttle.h"
 #include "ros/threads/stall_timer.h"
 #include "ros/threads/thread_top.h"
-#include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 
@@ -60,8 +60,9 @@ class Supervisor {
   std::deque<Watched> threads_;
   std::atomic<const char*> hung_ = nullptr;
   LogThrottle log_;
-  sweep_guard_core::PriorityMutex failures_mutex_;
-  std::array<sweep_guard_core::SteadyTime, 2> failures_{};  // the newest before this one, the latest first
+  sweep_guard_core::Mutex failures_mutex_;
+  std::array<sweep_guard_core::SteadyTime, 2> failures_
+      GUARDED_BY(failures_mutex_){};  // the newest before this one, the latest first
   std::atomic<bool> started_ = false;
   std::atomic<bool> stopping_ = false;
   std::thread thread_;

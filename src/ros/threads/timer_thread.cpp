@@ -28,7 +28,7 @@ void TimerThread::start(Supervisor& supervisor, const ThreadTraits& traits, std:
 
 void TimerThread::stop() {
   {
-    const std::lock_guard lock(mutex_);
+    const sweep_guard_core::Lock lock(mutex_);
     stopping_ = true;
   }
   stopped_.notify_all();
@@ -38,13 +38,13 @@ void TimerThread::stop() {
 void TimerThread::run() {
   top_->enter();
   if (prepare_) top_->attempt(prepare_);
-  std::unique_lock lock(mutex_);
+  sweep_guard_core::Lock lock(mutex_);
   while (!stopping_) {
     lock.unlock();
     const SteadyTime due = callDue();
     const SteadyTime next = std::max(due, std::chrono::steady_clock::now() + kRest);
     lock.lock();
-    stopped_.wait_until(lock, next, [this] { return stopping_; });
+    while (!stopping_ && stopped_.wait_until(lock, next) == std::cv_status::no_timeout) continue;
   }
 }
 

@@ -4,10 +4,10 @@
 #include <condition_variable>
 #include <deque>
 #include <functional>
-#include <mutex>
 #include <thread>
 
 #include "ros/threads/supervisor.h"
+#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/common/time.h"
 
 namespace sweep_guard_ros {
@@ -49,9 +49,9 @@ class TimerThread {
   std::deque<Timer> timers_;
   std::function<void()> prepare_;
   ThreadTop* top_ = nullptr;
-  std::mutex mutex_;
-  std::condition_variable stopped_;
-  bool stopping_ = false;
+  sweep_guard_core::Mutex mutex_;
+  std::condition_variable_any stopped_;
+  bool stopping_ GUARDED_BY(mutex_) = false;
   std::thread thread_;
 };
 

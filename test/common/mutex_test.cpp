@@ -1,4 +1,4 @@
-#include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/common/mutex.h"
 
 #include <gtest/gtest.h>
 #include <pthread.h>
@@ -34,9 +34,9 @@ void burnFor(std::chrono::milliseconds time) {
 // A thread of low priority holds the mutex for 10 ms of processor time, while one of middle priority takes the processor
 // for 400 ms. The three share a processor.
 // @returns how long a thread of high priority waits for the mutex
-template <typename Mutex>
+template <typename AnyMutex>
 std::chrono::milliseconds waitOfHighPriority() {
-  Mutex mutex;
+  AnyMutex mutex;
   std::atomic<bool> held = false;
   std::chrono::milliseconds waited{};
   std::thread([&] {
@@ -62,18 +62,18 @@ std::chrono::milliseconds waitOfHighPriority() {
   return waited;
 }
 
-TEST(PriorityMutexTest, AThreadOfMiddlePriorityDelaysNoWaitOfHighPriority) {
+TEST(MutexTest, AThreadOfMiddlePriorityDelaysNoWaitOfHighPriority) {
   bool granted = false;
   std::thread([&] { granted = setPriority(20); }).join();
   if (!granted) GTEST_SKIP() << "real-time priorities are refused";
-  EXPECT_LT(waitOfHighPriority<PriorityMutex>(), 200ms);
+  EXPECT_LT(waitOfHighPriority<Mutex>(), 200ms);
   EXPECT_GE(waitOfHighPriority<std::mutex>(), 200ms) << "there is nothing to avoid: the test proves nothing";
 }
 
-TEST(PriorityMutexTest, IsHeldByOneThread) {
-  PriorityMutex mutex;
-  const std::lock_guard lock(mutex);
-  std::thread([&] { EXPECT_FALSE(mutex.try_lock()); }).join();
+TEST(MutexTest, IsHeldByOneThread) {
+  Mutex mutex;
+  const Lock lock(mutex);
+  std::thread([&] { EXPECT_FALSE(mutex.tryLock()); }).join();
 }
 
 }  // namespace
