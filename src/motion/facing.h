@@ -63,7 +63,7 @@ struct Facing {
 /// Each piece of a tool with each mesh around it, at one pose. Remembers how the surfaces move.
 class Facings {
  public:
-  /// Places the meshes of a request. What it found before ends.
+  /// Places the meshes of a request in place of those of the last one.
   /// @param[out] unplaced  meshes without a frame at the pose are added
   void begin(const ProximityRequest& request, Workpieces& unplaced);
   void end();                         ///< keeps no mesh alive
