@@ -78,7 +78,6 @@ class Facings {
 
  private:
   static double fastest(const PlacedSurface& surface);
-  void forgetRemoved(const Workpieces& workpieces);
   void place(const ProximityRequest& request, const std::shared_ptr<const Workpiece>& workpiece,
              const Eigen::Isometry3d& X_WM);
   void face(const ProximityRequest& request, const PlacedSurface& surface, const AllowedPieces& allowed,
