@@ -14,8 +14,8 @@ struct PredictionOutcome {
 };
 
 /// Returns the outcomes of the predictions from one pose in every 50 ms, so that a minute counts the same whatever the
-/// rate of the poses. Leaves out what says nothing: predictions while the tool touches the object, those whose
-/// interval is not recorded without a gap, and those that are 0.
+/// rate of the poses. Leaves out predictions that carry no information: those while the tool touches the object, those
+/// whose interval is not recorded without a gap, and those that are 0.
 /// @param findings  along the motion
 /// @param object    index in the findings
 /// @param touches   of the object: the truth
@@ -37,7 +37,7 @@ struct ReliabilityBin {
   double frequency = 0.0;    ///< share that was met
 };
 
-/// How honest forecasts of at least kMinForecast are. NaN if there are none, or if all or none were met.
+/// The calibration of forecasts of at least kMinForecast. NaN if there are none, or if all or none were met.
 struct Calibration {
   std::vector<ReliabilityBin> bins;  ///< kBins of equal size, ascending
   double error = 0.0;                ///< mean difference of probability and frequency, bin by bin
@@ -63,7 +63,7 @@ struct ProbabilityKnot {
 /// deviations. From knot to knot it falls by at least 0.001.
 std::vector<ProbabilityKnot> fitProbability(const std::vector<PredictionOutcome>& outcomes);
 
-/// Returns what the knots say.
+/// Returns the probability between the knots.
 double probabilityAt(const std::vector<ProbabilityKnot>& knots, double deviations);
 
 }  // namespace sweep_guard_evaluation

@@ -18,7 +18,7 @@ struct JointErrorRequest {
   sweep_guard_core::PredictorOptions predictor;
 };
 
-/// What predictions of the origin of a link are worth. NaN without samples.
+/// The errors of predictions of the origin of a link. NaN without samples.
 struct LinkErrors {
   double median;  ///< distance from where it came to be [m]
   double p90;     ///< the same

@@ -15,7 +15,7 @@ struct RecordingSessions {
   std::vector<std::vector<SessionCount>> objects;  ///< by session, then as placed
 };
 
-/// What an operator gets from working beside one object after the other, each for a whole recording; shares are in
+/// The figures of an operator who works beside one object after the other, each for a whole recording; shares are in
 /// [0, 1].
 struct SessionFigures {
   double minutes = 0.0;  ///< beside an object: those of the recording, once for each object

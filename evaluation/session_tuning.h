@@ -9,7 +9,7 @@
 
 namespace sweep_guard_evaluation {
 
-/// What thresholds give in the sessions of all recordings.
+/// Thresholds, and the figures that they give in the sessions of all recordings.
 struct TuningPoint {
   sweep_guard_core::WarningThresholds thresholds;
   SessionFigures figures;

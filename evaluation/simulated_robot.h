@@ -8,7 +8,7 @@
 
 namespace sweep_guard_evaluation {
 
-/// What a robot is able to carry out.
+/// The limits of what a robot can carry out.
 struct RobotLimits {
   double max_speed = 0.5;               ///< of the origin of the tool frame [m/s], > 0
   double max_turn_rate = 1.0;           ///< [rad/s], > 0

@@ -5,9 +5,9 @@
 
 namespace sweep_guard_core {
 
-/// Leaves out patches that enclose nothing, as a fin or a plate inside: those with triangles at an edge where the number of
-/// all is odd and above 2, and that everywhere. Of several at such an edge the smallest one is left out, so no new border
-/// appears.
+/// Leaves out patches that enclose nothing, as a fin or a plate inside: those that have an odd number of triangles at
+/// an edge where the number of all is odd and above 2, and at no edge where it is even. Of several at such an edge only
+/// the smallest one is left out, so no new border appears.
 /// @returns whether any was left out
 bool leaveOutAppendages(WeldedSurface& surface, const Patches& patches);
 

@@ -10,9 +10,9 @@
 
 namespace sweep_guard_core {
 
-/// Looks from a point p along +x at triangles of a surface. A closed surface, whose triangles are counter-clockwise seen from
-/// outside, winds round p as often as their crossings() add up to. An edge on the ray counts with exactly one of its
-/// triangles despite rounding, for both evaluate it from the same end.
+/// Looks from a point p along +x at triangles of a surface. A closed surface, whose triangles are counter-clockwise
+/// seen from outside, winds around p as many times as the sum of their crossings(). An edge on the ray counts with
+/// exactly one of its triangles despite rounding, because both evaluate it from the same end.
 /// @tparam Corner  function from the index of a vertex to its position relative to p [m]
 template <typename Corner>
 class View {

@@ -16,12 +16,12 @@ struct PartTriangle {
   std::uint32_t part;
 };
 
-/// Returns whether two parts go through each other: an edge of one passes through a triangle of the other, also when the solid
-/// that has the edge is smaller by `least`. Solids that only touch do not. Empty: there are too many triangles close to those of
-/// other parts to tell.
+/// Returns whether two parts go through each other: an edge of one passes through a triangle of the other, even if the
+/// solid with the edge is shrunk by `least`. Solids that only touch do not. Empty: there are too many triangles close
+/// to those of other parts to tell.
 ///
 /// Halves the box around all triangles until only one part is left in it, or few triangles.
-/// @param triangles  those of a part one after the other, counter-clockwise seen from where the solid is not
+/// @param triangles  grouped by part, counter-clockwise seen from outside the solid
 /// @param position   of a vertex [m]
 /// @param least      [m], > 0
 std::optional<bool> partsCross(const std::vector<PartTriangle>& triangles,

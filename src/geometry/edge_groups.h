@@ -23,7 +23,7 @@ class EdgeGroups {
   struct Group {
     std::uint32_t low;  ///< the vertex of the edge with the lower index
     const HalfEdge* first;
-    const HalfEdge* last;  ///< behind the last one
+    const HalfEdge* last;  ///< one past the last
 
     const HalfEdge* begin() const { return first; }
     const HalfEdge* end() const { return last; }

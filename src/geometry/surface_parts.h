@@ -33,10 +33,10 @@ class SurfaceParts {
   std::uint32_t count_ = 0;
 };
 
-/// A side of a triangle of a part that no other of the part joins.
+/// An edge at the border of a part, in the direction in which its triangle passes it.
 struct Border {
   std::uint32_t part;
-  std::uint32_t from;  ///< as its triangles pass it
+  std::uint32_t from;
   std::uint32_t to;
 };
 
@@ -50,13 +50,13 @@ Borders bordersOf(const SurfaceParts& parts);
 /// Sums over the triangles of a part.
 struct Shell {
   bool closed = true;
-  bool both_ways = false;  ///< a triangle was there in both directions
+  bool both_ways = false;  ///< a triangle was sent in both directions
   std::uint32_t count = 0;
   std::uint32_t turned = 0;  ///< triangles that the part has turned
   double six_volumes = 0.0;  ///< signed [m^3], as the part is turned
   Eigen::AlignedBox3d box = {};
 
-  /// Returns whether the part is turned outwards by turning it once more.
+  /// Returns whether the part has to be turned once more to face outwards.
   bool isInsideOut() const { return six_volumes < 0.0; }
   /// Returns whether the sender's direction is known, and the same for all triangles.
   bool isSentInOneDirection() const { return !both_ways && (turned == 0 || turned == count); }

@@ -5,7 +5,7 @@
 
 namespace sweep_guard_core {
 
-/// Returns of each vertex the first one at the same position.
+/// Returns for each vertex the first one at the same position.
 /// @param positions  x0 y0 z0 x1 ... [m], finite
 std::vector<std::uint32_t> firstAtPositions(const std::vector<float>& positions);
 
@@ -13,7 +13,7 @@ std::vector<std::uint32_t> firstAtPositions(const std::vector<float>& positions)
 /// @param positions     x0 y0 z0 x1 ... [m], finite
 /// @param vertices      those to weld: ascending, each the first at its position
 /// @param distance      [m], >= 0
-/// @param[in,out] first of each vertex the one that stands for it
+/// @param[in,out] first  for each vertex the one that represents it
 /// @returns whether any was welded
 bool weldNear(const std::vector<float>& positions, const std::vector<std::uint32_t>& vertices, double distance,
               std::vector<std::uint32_t>& first);

@@ -78,7 +78,7 @@ void InteractionFinder::find(const PoseWithFrames& pose, const Workpieces& workp
   interaction.objects.clear();
   interaction.unplaced.clear();
   interaction.total = Wrench();
-  forgetRemoved(workpieces);
+  eraseRemoved(workpieces, motions_);
   for (const auto& workpiece : workpieces) {
     const auto X_WM = pose.X_WM.find(workpiece->frame);
     if (X_WM == pose.X_WM.end()) {
@@ -92,14 +92,6 @@ void InteractionFinder::find(const PoseWithFrames& pose, const Workpieces& workp
     if (found.volume == 0.0 && found.area_T.isZero(0.0)) continue;
     interaction.total += found.wrench;
     interaction.objects.push_back(found);
-  }
-}
-
-void InteractionFinder::forgetRemoved(const Workpieces& workpieces) {
-  for (auto motion = motions_.begin(); motion != motions_.end();) {
-    const auto same = [&](const auto& workpiece) { return workpiece->id == motion->first; };
-    const bool there = std::any_of(workpieces.begin(), workpieces.end(), same);
-    motion = there ? std::next(motion) : motions_.erase(motion);
   }
 }
 

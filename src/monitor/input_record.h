@@ -18,7 +18,7 @@ class InputRecord {
     std::optional<Timestamps> newest;  ///< newest message; empty: none yet
     std::string last_error;            ///< empty: none
     SteadyTime error_time;             ///< time of the last error
-    std::string last_warning = {};     ///< of something odd that costs nothing; empty: none
+    std::string last_warning = {};     ///< of an anomaly without consequences; empty: none
     SteadyTime warning_time = {};      ///< time of the last warning
   };
 

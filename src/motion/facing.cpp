@@ -86,7 +86,7 @@ void Facings::begin(const ProximityRequest& request, Workpieces& unplaced) {
   surface_count_ = 0;
   count_ = 0;
   surfaces_.resize(std::max(surfaces_.size(), request.workpieces.size()));  // facings point into it
-  forgetRemoved(request.workpieces);
+  eraseRemoved(request.workpieces, motions_);
   for (const auto& workpiece : request.workpieces) {
     const auto X_WM = request.pose.X_WM.find(workpiece->frame);
     if (X_WM == request.pose.X_WM.end()) {
@@ -94,14 +94,6 @@ void Facings::begin(const ProximityRequest& request, Workpieces& unplaced) {
     } else {
       place(request, workpiece, X_WM->second);
     }
-  }
-}
-
-void Facings::forgetRemoved(const Workpieces& workpieces) {
-  for (auto motion = motions_.begin(); motion != motions_.end();) {
-    const auto same = [&](const auto& workpiece) { return workpiece->id == motion->first; };
-    const bool there = std::any_of(workpieces.begin(), workpieces.end(), same);
-    motion = there ? std::next(motion) : motions_.erase(motion);
   }
 }
 

@@ -63,7 +63,7 @@ struct Facing {
 /// Each piece of a tool with each mesh around it, at one pose. Remembers how the surfaces move.
 class Facings {
  public:
-  /// Places the meshes of a request. What it found before ends.
+  /// Places the meshes of a request in place of those of the last one.
   /// @param[out] unplaced  meshes without a frame at the pose are added
   void begin(const ProximityRequest& request, Workpieces& unplaced);
   void end();                         ///< keeps no mesh alive
@@ -78,7 +78,6 @@ class Facings {
 
  private:
   static double fastest(const PlacedSurface& surface);
-  void forgetRemoved(const Workpieces& workpieces);
   void place(const ProximityRequest& request, const std::shared_ptr<const Workpiece>& workpiece,
              const Eigen::Isometry3d& X_WM);
   void face(const ProximityRequest& request, const PlacedSurface& surface, const Eigen::Isometry3d& X_WM);

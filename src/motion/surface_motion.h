@@ -15,7 +15,7 @@ namespace sweep_guard_core {
 /// latest poses of its frame.
 class SurfaceMotion {
  public:
-  /// Takes the snapshot and the pose of its frame for newer ones than those of the last call.
+  /// Takes a newer snapshot and a newer pose of its frame.
   /// @param stamp       of the pose
   /// @param velocity_W  of the frame: of its origin [m/s], and angular [rad/s]; empty: that between the poses
   void update(const std::shared_ptr<const Workpiece>& workpiece, const Eigen::Isometry3d& X_WM, Time stamp,

@@ -37,7 +37,7 @@ class DemoStatistics {
   /// @param sequence  header.seq, counted by the publisher
   void addPose(sweep_guard_core::Time stamp, std::uint32_t sequence);
   void addMeshUpdate(sweep_guard_core::Time stamp);
-  /// Counts what a tool does to an elastic workpiece; summary() and fault() have it then.
+  /// Records the effect of a tool on an elastic workpiece, for summary() and fault().
   /// @param dent   largest distance of a vertex from its place at rest [m]
   void addDent(double dent) { largest_dent_ = std::max(dent, largest_dent_.value_or(0.0)); }
   /// @param force  on the tool [N]

@@ -56,7 +56,7 @@ class TriangleMesh {
   std::shared_ptr<const std::vector<Triangle>> sharedTriangles() const { return {topology_, &topology_->triangles}; }
   /// Returns what the surface encloses: of kSheet nothing.
   const Enclosure& enclosure() const { return topology_->enclosure; }
-  /// Returns whether it is known of every point off the surface whether it lies inside: the surface has no border.
+  /// Returns whether for every point off the surface it is known whether it lies inside: the surface has no border.
   bool closed() const { return topology_->surface != SurfaceKind::kSheet && enclosure().openEdges() == 0; }
   /// Returns the number of edges at its borders; 0 of kSheet, which has no inside.
   size_t openEdges() const { return enclosure().openEdges(); }

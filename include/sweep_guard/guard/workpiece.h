@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,6 +35,16 @@ void countUpdate(const Workpiece& before, Workpiece& updated);
 
 /// Snapshots of different workpieces: none null, each id once (not checked).
 using Workpieces = std::vector<std::shared_ptr<const Workpiece>>;
+
+/// Erases the entries of a map by id whose workpiece is not among these.
+template <typename Entry>
+void eraseRemoved(const Workpieces& workpieces, std::map<std::string, Entry>& by_id) {
+  for (auto entry = by_id.begin(); entry != by_id.end();) {
+    const auto same = [&](const auto& workpiece) { return workpiece->id == entry->first; };
+    const bool there = std::any_of(workpieces.begin(), workpieces.end(), same);
+    entry = there ? std::next(entry) : by_id.erase(entry);
+  }
+}
 
 /// A workpiece that could not be swept, and why: the detector failed, memory ran out or Guard::stop() was called.
 struct SweepFailure {

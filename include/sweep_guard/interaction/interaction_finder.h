@@ -106,7 +106,6 @@ class InteractionFinder {
     bool known_ = false;
   };
 
-  void forgetRemoved(const Workpieces& workpieces);
   ObjectInteraction interact(const std::shared_ptr<const Workpiece>& workpiece, const PoseWithFrames& pose,
                              const ToolMotion& motion, const InteractionOptions& options);
 

@@ -21,7 +21,7 @@ struct HeardMessage {
 
 using HeardMessages = std::vector<sweep_guard_core::WindowMessage<HeardMessage>>;
 
-/// Returns about how many bytes a bag of these messages has; rather too many.
+/// Returns an upper estimate of the size of a bag of these messages [bytes].
 std::uintmax_t bagSize(const HeardMessages& messages);
 
 /// Writes a bag and reads its index again.

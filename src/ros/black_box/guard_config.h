@@ -21,7 +21,7 @@ class GuardConfig {
   GuardConfig(std::string guard, const std::atomic<bool>& stopping)
       : guard_(std::move(guard)), call_(kCallTimeout, stopping) {}
 
-  /// Asks the master. If it does not answer, what it said before remains.
+  /// Asks the master. If it does not answer, its previous answer stays.
   void refresh();
 
   /// Returns a file of parameters for a guard: its own, and the robot description that it finds.

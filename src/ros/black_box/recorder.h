@@ -30,7 +30,7 @@ namespace sweep_guard_ros {
 class Recorder {
  public:
   explicit Recorder(const BlackBoxParameters& parameters);
-  ~Recorder();  ///< waits for the recording that is being written, and writes that of an event that waits
+  ~Recorder();  ///< waits for the recording that is being written, and writes the one that a waiting event asks for
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
@@ -43,7 +43,7 @@ class Recorder {
   /// Makes the present an event. Any thread.
   /// @return why nothing could be written when that was last tried; empty: it could
   std::string requestRecording();
-  /// Writes what is due, and else looks at the folder now and then. To be called often. Any thread.
+  /// Writes what is due; otherwise inspects the folder from time to time. To be called often. Any thread.
   void tick();
 
   struct Summary {

@@ -21,9 +21,9 @@ struct ForceCycleSources {
   const DeviceAxes& axes;
 };
 
-/// Computes the force of the surfaces at each tick and publishes it on `servo_cf`: zero where nothing is known. A tick waits
-/// for no thread without its priority but in roscpp, and allocates nothing but there, and a message while a nodelet keeps
-/// the one before.
+/// Computes the force of the surfaces at each tick and publishes it on `servo_cf`: zero where nothing is known. Outside
+/// roscpp, a tick waits for no thread without its priority and allocates nothing, except a message while a nodelet
+/// still keeps the previous one.
 class ForceCycle {
  public:
   static constexpr sweep_guard_core::Duration kPeriod = std::chrono::milliseconds(1);

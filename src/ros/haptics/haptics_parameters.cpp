@@ -12,12 +12,13 @@ using sweep_guard_core::kInfinity;
 
 void readSources(ParameterReader& read, HapticsParameters& parameters) {
   const Duration silence = parameters.force.limits.warning_silence;
-  const auto [fixed_frame, tool_source, tool_frame] = readSourceFrames(read);
-  parameters.guard = {readGuard(read), fixed_frame, tool_frame, silence};
-  parameters.tool = {"tool pose", "tool_pose", tool_source, fixed_frame, tool_frame, silence};
+  PoseSource& tool = parameters.tool;
+  tool = readPoseSource(read);
+  tool.silence = silence;
+  parameters.guard = {readGuard(read), tool.fixed_frame, tool.frame, silence};
   parameters.device_frame = read.optionalName(
       "device_frame", "tf frame that does not move with the device, whose axes its force has. Empty: fixed_frame.");
-  if (parameters.device_frame.empty()) parameters.device_frame = fixed_frame;
+  if (parameters.device_frame.empty()) parameters.device_frame = tool.fixed_frame;
   parameters.device_tells_pose =
       read.choice(
           "device_source", "tool_pose", {"tool_pose", "device_pose"},

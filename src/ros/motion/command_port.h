@@ -36,7 +36,7 @@ class CommandPort {
   virtual void take(const Received& received) = 0;  ///< it is the newest command from now on
   virtual bool isPose() const { return false; }
 
-  /// When something is to be sent.
+  /// The times of a cycle in which something is sent.
   struct Cycle {
     sweep_guard_core::Instant now;
     sweep_guard_core::Duration since_sent;  ///< a pose moves on by what is possible in this time

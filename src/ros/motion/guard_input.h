@@ -29,7 +29,7 @@ class GuardInput {
     thread_.start(supervisor, {"guard", sweep_guard_core::Stage::kReceive, /*watched=*/true, /*loses_latched=*/true});
   }
 
-  /// What has come, and the message that the planes are from. Without a tool pose.
+  /// The newest inputs, without a tool pose, and the message that the planes are from.
   struct Newest {
     sweep_guard_core::MotionInputs inputs;
     sweep_guard::Proximity::ConstPtr planes;  ///< null as long as there are no planes

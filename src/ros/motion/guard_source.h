@@ -21,8 +21,8 @@ struct PoseSource {
   std::string topic = "tool_pose";  ///< of geometry_msgs/PoseStamped
   ToolSource source = ToolSource::kTopic;
   std::string fixed_frame;
-  std::string frame;                   ///< in tf
-  sweep_guard_core::Duration silence;  ///< after which stamps may go back
+  std::string frame;                     ///< in tf
+  sweep_guard_core::Duration silence{};  ///< after which stamps may go back
 };
 
 }  // namespace sweep_guard_ros

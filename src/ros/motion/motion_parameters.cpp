@@ -30,10 +30,10 @@ void readCommand(ParameterReader& read, MotionParameters& parameters) {
 }
 
 void readFrames(ParameterReader& read, MotionParameters& parameters) {
-  const SourceFrames frames = readSourceFrames(read);
-  parameters.fixed_frame = frames.fixed_frame;
-  parameters.tool_source = frames.tool_source;
-  parameters.tool_frame = frames.tool_frame;
+  const PoseSource tool = readPoseSource(read);
+  parameters.fixed_frame = tool.fixed_frame;
+  parameters.tool_source = tool.source;
+  parameters.tool_frame = tool.frame;
   parameters.command_frame =
       read.optionalName("command_frame",
                         "tf frame of a command whose header names none. Empty: fixed_frame for twist, which has "

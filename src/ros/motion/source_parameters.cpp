@@ -6,15 +6,15 @@
 
 namespace sweep_guard_ros {
 
-SourceFrames readSourceFrames(ParameterReader& read) {
-  SourceFrames frames;
-  frames.fixed_frame = read.name("fixed_frame", "world", "tf frame that the planes are in: as that of the guard.");
+PoseSource readPoseSource(ParameterReader& read) {
+  PoseSource tool;
+  tool.fixed_frame = read.name("fixed_frame", "world", "tf frame that the planes are in: as that of the guard.");
   const std::string source =
       read.choice("tool_source", "topic", {"topic", "tf"},
                   "topic: poses of the tool arrive on `tool_pose`. tf: the tool is the frame tool_frame in tf.");
-  frames.tool_source = source == "tf" ? ToolSource::kTf : ToolSource::kTopic;
-  frames.tool_frame = read.name("tool_frame", "tool", "tf frame of the tool: as that of the guard.");
-  return frames;
+  tool.source = source == "tf" ? ToolSource::kTf : ToolSource::kTopic;
+  tool.frame = read.name("tool_frame", "tool", "tf frame of the tool: as that of the guard.");
+  return tool;
 }
 
 std::string readGuard(ParameterReader& read) {

@@ -2,19 +2,12 @@
 
 #include <string>
 
-#include "ros/parameters/parameters.h"
+#include "ros/motion/guard_source.h"
 
 namespace sweep_guard_ros {
 
-/// Where the tool and the planes around it are.
-struct SourceFrames {
-  std::string fixed_frame;  ///< of the planes
-  ToolSource tool_source;   ///< kTopic or kTf
-  std::string tool_frame;
-};
-
-/// Reads fixed_frame, tool_source and tool_frame.
-SourceFrames readSourceFrames(ParameterReader& read);
+/// Reads fixed_frame, tool_source (kTopic or kTf) and tool_frame. The caller sets `silence`.
+PoseSource readPoseSource(ParameterReader& read);
 
 /// Reads the name of the guard's node.
 /// @throws sweep_guard_core::InvalidInput if it is no name of a node

@@ -30,7 +30,7 @@ class BodiesPublisher {
                const boost::shared_ptr<sweep_guard::ToolSurface>& surface);
   void moved(const sweep_guard_core::PoseWithFrames& pose);
   void predicted(const sweep_guard_core::PoseWithFrames& from, const sweep_guard_core::Prediction& prediction);
-  void reset();  ///< how the tool moves meanwhile is not known
+  void reset();  ///< the motion of the tool in between is not known
 
  private:
   void publish();

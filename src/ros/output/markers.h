@@ -31,7 +31,7 @@ struct MarkerScene {
   sweep_guard_core::Warning warning;
 };
 
-/// Returns whether the scene's contact is the one that the warning speaks of. It is not if it is older than what may be
+/// Returns whether the scene's contact is the one that the warning reports. It is not if it is older than what may be
 /// held, or of another workpiece: detectors may also disagree about a sweep that met nothing.
 /// @param hold  how long a contact is shown after its end, >= 0
 bool isOfWarning(const MarkerScene& scene, sweep_guard_core::Duration hold);
