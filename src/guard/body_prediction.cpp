@@ -28,6 +28,7 @@ void BodyPrediction::begin(const BodyPredictionRequest& request, Prediction& pre
   prediction.failures.clear();
   X_WB_ = motion.from.body(request.body).X_WB;
   next_ = tested_ = 0;
+  checker_.giveUp();
   checker_.forgetPath();
   finish();
 }

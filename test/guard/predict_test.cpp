@@ -699,6 +699,15 @@ TEST_F(InterruptedGuardTest, APredictionEndsThoughAllIsForgottenMeanwhile) {
   EXPECT_TRUE(predictionOf(guard_, 0ms, workpieces_).path.empty());
 }
 
+TEST_F(InterruptedGuardTest, APredictionIsGivenUpWhenTheNextOneBegins) {
+  const Prediction expected = predictionOf(other_, 0ms, workpieces_);
+  Prediction given_up;
+  PredictionRun run = guard_.beginPrediction(0ms, workpieces_, given_up);
+  for (int i = 0; i < 3; ++i) run.step();
+  ASSERT_FALSE(run.done());
+  expectSame(predictionOf(guard_, 0ms, workpieces_), expected);
+}
+
 TEST(SlowDetectorTest, TimeForOtherThingsIsNotThePredictions) {
   SlowGuard guard;
   guard.cost = 500us;
