@@ -72,7 +72,7 @@ void Guard::sweepBodies(const PoseWithFrames& pose, bool arrived, const Workpiec
     body.sweeps.sweep(sweepSetup(body), pose, arrived ? std::optional(at) : std::nullopt, workpieces, swept);
     body.touches.update(swept, pose, at.X_WB, body.tool, *intentions());
   }
-  uniteBodies(bodies_, &GuardedBody::report, report);
+  uniteResults(bodies_, &GuardedBody::report, report);
   report.jump = std::exchange(jump_, {});
   budget_->spentOnMeasured(options_.clock() - begin);
 }

@@ -147,7 +147,7 @@ void Guard::Run::goOn() {
 Duration Guard::Run::spent() const { return spent_ + (guard_.options_.clock() - step_begin_); }
 
 void Guard::Run::finish() {
-  uniteBodies(guard_.bodies_, &GuardedBody::prediction, *prediction_);
+  uniteResults(guard_.bodies_, &GuardedBody::prediction, *prediction_);
   size_t volumes = 0;
   for (const PredictedObject& object : prediction_->objects) volumes = std::max(volumes, object.volumes_tested);
   guard_.budget_->spentOnPredicted(spent_, volumes);

@@ -11,8 +11,8 @@ namespace sweep_guard_core {
 constexpr const char* kShuttingDown = "the guard is shutting down";
 
 /// The prediction of a Guard that is under way: it tests one body after the other, first the one that may come nearest,
-/// which leaves the least to measure for the others. What it predicts from stays as it was when it began, whatever the guard
-/// sweeps meanwhile. Its time is that of begin() and of the steps. Keeps its buffers.
+/// which leaves the least to measure for the others. Pose, path, frames and intentions stay as they were when it began,
+/// whatever the guard sweeps meanwhile; only which links have touched as intended is known anew. Its time is that of begin() and of the steps. Keeps its buffers.
 class Guard::Run {
  public:
   explicit Run(Guard& guard);

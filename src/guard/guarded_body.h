@@ -28,7 +28,7 @@ struct GuardedBody {
 /// Adds the results of all bodies to that of the first.
 /// @param own  where each of the others has its own
 template <typename Result>
-void uniteBodies(const std::vector<std::unique_ptr<GuardedBody>>& bodies, Result GuardedBody::*own, Result& all) {
+void uniteResults(const std::vector<std::unique_ptr<GuardedBody>>& bodies, Result GuardedBody::*own, Result& all) {
   size_t first_piece = bodies[0]->tool.pieces().size();
   for (size_t i = 1; i < bodies.size(); ++i) {
     unite(all, (*bodies[i]).*own, first_piece);

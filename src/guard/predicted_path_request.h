@@ -28,7 +28,7 @@ struct SweepPlan {
 /// A predicted path of one body of the tool, and a workpiece on it. What it refers to must outlive its test.
 struct PredictedPathRequest {
   const Tool& tool;
-  const Eigen::Isometry3d& X_WT;  ///< where the path begins
+  const Eigen::Isometry3d& X_WT;  ///< of the body, where the path begins
   const PredictedPath& path;      ///< at least one pose
   size_t reflex_sweeps;           ///< number of poses, from the first, within the reflex interval
   const Eigen::Isometry3d& X_WM;  ///< frame of the workpiece; taken to stay where it is, unless there is `frame`

@@ -201,6 +201,7 @@ void SweepChecker::narrow(const SweepRequest& request) {
   remove(result_.intended, narrow_phase_result_.unintended);
 }
 
+// No triangle is intended for a piece that may touch all of them.
 void SweepChecker::narrowAllowed(const SweepRequest& request) {
   const InStage stage(Stage::kNarrowPhase);
   narrow_phase_.run({request.tool, request.sub_motions, request.mesh, allowed_, request.options.margin,

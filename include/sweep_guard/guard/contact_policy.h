@@ -17,8 +17,11 @@ class IntendedTriangles;
 
 /// Decides what contact of one tool with one workpiece means. It answers two questions:
 ///
-///     of a piece, before the detector:            allows(piece)
+///     of a piece:                                 allows(piece)
 ///     of a triangle that this piece may meet:     trianglesIntendedFor(piece, ...).contains(triangle, ...)
+///
+/// Predictions and planes leave out a piece that is allowed; a measured sweep tests it, too, and reports it apart. Planes
+/// stand for an intended triangle from its intendedDepth() on.
 ///
 /// Allowed contact is no warning, wherever and however deep it is. Intended contact is no warning on the triangles of an
 /// Intention and up to its depth. Any other contact is forbidden. An attached workpiece is part of the tool, so no policy

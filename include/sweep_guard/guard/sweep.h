@@ -88,7 +88,7 @@ struct PathRequest {
   /// Of each sweep: bound [m], >= 0, on the distance of a tool point from where it would be if the tool moved as a Motion.
   /// Empty: 0
   std::vector<double> deviation_bounds = {};
-  const ContactPolicy& contact = kForbidAllContact;  ///< only allowed contact counts
+  const ContactPolicy& contact = kForbidAllContact;  ///< without intentions: what is meant along a path is not known
 };
 
 /// Holds what the tool meets along a path of poses; one sweep for each two consecutive poses.

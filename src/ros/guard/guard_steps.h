@@ -33,7 +33,7 @@
 
 namespace sweep_guard_ros {
 
-/// What the publishers need of another tool.
+/// What the publishers need of a tool that is exchanged for the present one.
 struct ToolShapes {
   /// Any thread. Takes seconds for ten thousand corners.
   explicit ToolShapes(const Parameters& parameters);

@@ -41,7 +41,6 @@ void GuardThread::stop() {
 
 // Makes the new parts and destroys the old ones here: the guard's thread only exchanges them.
 void GuardThread::apply(const std::shared_ptr<const Parameters>& next) {
-  const sweep_guard_core::Lock lock(change_mutex_);
   const auto before = dependencies_.parameters.get();
   if (before->attached != next->attached) {
     throw Error("a workpiece was attached or detached meanwhile: ask again; no parameter was changed");
@@ -50,6 +49,7 @@ void GuardThread::apply(const std::shared_ptr<const Parameters>& next) {
   std::optional<ToolShapes> shapes;
   if (!change.bodies.empty()) shapes = dependencies_.make_shapes(*next);
   const auto exchange = [&, tested = change.detector != nullptr] {
+    requireUnchanged(*before);
     steps_.guard().exchange(change);
     if (shapes) steps_.publishers().setTool(*next, *shapes);
     if (tested) dependencies_.monitor.detectorTested({});
@@ -79,13 +79,18 @@ sweep_guard_core::GuardChange GuardThread::changeTo(const Parameters& next, cons
   return change;
 }
 
+// Of a change that was made from these parameters. In the guard's thread, where nothing else changes them.
+void GuardThread::requireUnchanged(const Parameters& before) const {
+  if (dependencies_.parameters.get().get() != &before) throw Error("parameters have changed meanwhile: ask again");
+}
+
 void GuardThread::reset() {
-  const sweep_guard_core::Lock lock(change_mutex_);
   sweep_guard_core::GuardChange change;
   const auto parameters = dependencies_.parameters.get();
   change.options = parameters->guard;
   change.predictor.emplace(change.options.predictor, articulatedRobot(*parameters));
   const auto begin_anew = [&] {
+    requireUnchanged(*parameters);
     steps_.forget();
     steps_.guard().exchange(change);
     dependencies_.intentions.clear();
@@ -97,14 +102,13 @@ void GuardThread::reset() {
 void GuardThread::exchangeTool(const std::shared_ptr<const Parameters>& before,
                                const std::shared_ptr<const Parameters>& next,
                                const std::function<void()>& change_store) {
-  const sweep_guard_core::Lock lock(change_mutex_);
   sweep_guard_core::GuardChange change;
   change.options = next->guard;
   change.bodies = *next->bodies;
   change.robot = articulatedRobot(*next);
   ToolShapes shapes = dependencies_.make_shapes(*next);
   const auto exchange = [&] {
-    if (dependencies_.parameters.get() != before) throw Error("parameters have changed meanwhile: ask again");
+    requireUnchanged(*before);
     change_store();
     dependencies_.parameters.set(next);  // before the poses of the next epoch are computed
     steps_.forget();
@@ -167,7 +171,7 @@ bool GuardThread::workOnce() {
   if (!dependencies_.queue.take(work_, latestPrediction())) return false;
   for (const auto& task : work_.tasks) top_->run(task);
   if (work_.frames_moved && work_.poses.empty()) top_->run([this] { steps_.sweepOn(); });
-  do {
+  do {  // until there is other work, or it is too early for the next prediction
     if (!sweepPoses()) return false;
     if (!timeToPredict()) return true;
     top_->run([this] { predict(); });

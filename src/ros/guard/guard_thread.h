@@ -11,7 +11,6 @@
 #include "monitor/work_queue.h"
 #include "ros/guard/guard_steps.h"
 #include "ros/threads/supervisor.h"
-#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 
@@ -46,7 +45,7 @@ class GuardThread {
                     const std::function<void()>& change_store);
   /// Returns the newest swept pose. Any thread. The future throws sweep_guard_core::Error if there is none, or it is stale.
   std::future<sweep_guard_core::PoseWithFrames> newestPose();
-  /// Forgets everything but the workpieces. Returns when that is done. Any thread.
+  /// Forgets poses, contacts, intentions and what was learned; keeps workpieces, parameters, touches and what is attached. Returns when that is done. Any thread.
   /// @throws sweep_guard_core::Error as apply(); then nothing is forgotten, also later
   void reset();
   /// Acknowledges a warning, see WarningMonitor. Returns when that is done. Any thread.
@@ -61,6 +60,7 @@ class GuardThread {
 
  private:
   sweep_guard_core::GuardChange changeTo(const Parameters& next, const Parameters& before);
+  void requireUnchanged(const Parameters& before) const;
   void runInTime(const std::function<void()>& task, const std::string& otherwise);
   void setPriority() const;
   void run();
@@ -75,7 +75,6 @@ class GuardThread {
   bool sweepWaiting();
 
   const GuardThreadDependencies dependencies_;
-  sweep_guard_core::Mutex change_mutex_;  // one change of the guard at a time
 
   // After the start, used by the thread only:
   GuardSteps steps_;

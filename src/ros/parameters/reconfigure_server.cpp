@@ -142,7 +142,7 @@ ReconfigureServer::ReconfigureServer(const ros::NodeHandle& private_node, Servic
       writer_(private_node, master),
       descriptions_(private_node_.advertise<ConfigDescription>("parameter_descriptions", 1, /*latch=*/true)),
       values_(private_node_.advertise<Config>("parameter_updates", 1, /*latch=*/true)),
-      calls_(threads.brief, threads.refusals),
+      calls_(threads.lasting, threads.refusals),
       server_(calls_.advertise<Event>(
           private_node, "set_parameters", parameters.initial().max_message_size,
           [this](Event& event) { return onSet(event); },

@@ -19,7 +19,7 @@ constexpr auto kTransformWait = std::chrono::milliseconds(100);  ///< of a call 
 constexpr auto kGuardTimeout = std::chrono::seconds(1);          ///< of a call for a guard that is stuck in a sweep
 
 /// Hands the calls of one or more services to a thread that runs them and others. At most 4 of these calls wait while one
-/// runs. Any more are answered BUSY at once, in a second thread. Both threads must be stopped first, and then the servers
+/// runs. Any more are answered BUSY at once, in another thread. Both threads must be stopped first, and then the servers
 /// be destroyed.
 class LimitedCalls : public ros::CallbackQueueInterface {
  public:

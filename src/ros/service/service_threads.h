@@ -10,7 +10,7 @@ namespace sweep_guard_ros {
 /// answer would wait for a path test. None of the three waits for another one, so they cannot come to a deadlock.
 struct ServiceThreads {
   QueueThread brief;    ///< calls that ask and set, for at most about a second where the guard or the master is stuck
-  QueueThread lasting;  ///< calls that test paths or cut meshes
+  QueueThread lasting;  ///< calls that test paths, cut meshes, or make a tool or a detector
   QueueThread refusals;
 
   /// Starts the threads; the supervisor must outlive them.
