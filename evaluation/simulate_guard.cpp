@@ -7,7 +7,6 @@
 
 #include "evaluation/progress.h"
 #include "evaluation/simulated_node.h"
-#include "sweep_guard/guard/guard.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_evaluation {

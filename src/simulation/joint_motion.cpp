@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cassert>
-#include <optional>
 
 #include "recording/bag.h"
 #include "ros/input/joint_names.h"
 #include "simulation/tip.h"
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/kinematics/joint_timeline.h"
 #include "sweep_guard/kinematics/robot_motion.h"
 #include "sweep_guard/ros/conversions.h"
 

@@ -3,7 +3,6 @@
 #include <ros/names.h>
 
 #include <cstdlib>
-#include <filesystem>
 
 #include "common/floating_point.h"
 #include "sweep_guard/common/error.h"

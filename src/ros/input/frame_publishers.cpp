@@ -1,7 +1,6 @@
 #include "ros/input/frame_publishers.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <utility>
