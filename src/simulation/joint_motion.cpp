@@ -36,7 +36,6 @@ void requireAll(const JointTimeline& timeline, const KinematicTree& tree, const 
 }
 
 using Eigen::Vector3d;
-using sweep_guard_core::Robot;
 using sweep_guard_core::TreeLink;
 
 constexpr double kRest = 1e-3;  // [m]; a shorter path has no direction
@@ -47,7 +46,7 @@ int jointsBelow(const sweep_guard_core::KinematicTree& tree, size_t link) {
   return joints;
 }
 
-size_t lastBody(const Robot& robot) {
+size_t lastBody(const sweep_guard_core::Robot& robot) {
   const auto fewer = [&robot](const auto& a, const auto& b) {
     return jointsBelow(robot.tree, a.link) < jointsBelow(robot.tree, b.link);
   };
