@@ -1,6 +1,5 @@
 #include "motion/piece_cover.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace sweep_guard_core {

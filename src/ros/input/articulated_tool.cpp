@@ -1,6 +1,5 @@
 #include "ros/input/articulated_tool.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "sweep_guard/common/printable.h"
