@@ -4,10 +4,7 @@
 
 namespace sweep_guard_evaluation {
 
-using sweep_guard_core::Duration;
 using sweep_guard_core::Separation;
-using sweep_guard_core::Time;
-using sweep_guard_core::toSeconds;
 using sweep_guard_core::Twist;
 
 namespace {
@@ -18,9 +15,9 @@ constexpr double kAtStandoff = 1.5e-4;
 
 }  // namespace
 
-Eigen::Isometry3d SurfaceVelocity::poseAt(Time time) const {
+Eigen::Isometry3d SurfaceVelocity::poseAt(sweep_guard_core::Time time) const {
   Eigen::Isometry3d X_WM = Eigen::Isometry3d::Identity();
-  X_WM.translation() = toSeconds(time - there) * v_W;
+  X_WM.translation() = sweep_guard_core::toSeconds(time - there) * v_W;
   return X_WM;
 }
 
@@ -65,7 +62,7 @@ LoopCycle ClosedLoop::run(const Twist& command_W) {
   std::vector<Eigen::Isometry3d> path_MT = {X_MT()};
   std::vector<double> gaps = {apart.gap};
   std::vector<LoopCycle::Contact> speeds;
-  for (Duration step{}; step < kCommandPeriod; step += SimulatedRobot::kStep) {
+  for (sweep_guard_core::Duration step{}; step < kCommandPeriod; step += SimulatedRobot::kStep) {
     robot_.step();
     speeds.push_back(speedsAt(apart));  // between this pose and the next one
     now_ += SimulatedRobot::kStep;

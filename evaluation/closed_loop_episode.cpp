@@ -5,7 +5,6 @@
 
 namespace sweep_guard_evaluation {
 
-using sweep_guard_core::Duration;
 using sweep_guard_core::Time;
 using sweep_guard_core::Twist;
 
@@ -18,7 +17,7 @@ constexpr size_t kUntilPlanes = 3;    // cycles until a guard has its first plan
 constexpr size_t kReachedLater = 20;  // cycles for which a surface within reach counts: planes and poses are late
 constexpr size_t kCame = 50;          // cycles of the approach that are retraced
 constexpr double kHeld = 0.5;         // share of the speed below which the tool is held
-constexpr Duration kAfterPlacement = std::chrono::seconds(2);
+constexpr sweep_guard_core::Duration kAfterPlacement = std::chrono::seconds(2);
 constexpr double kMinApproach = 0.05;  // [m/s] of a surface
 constexpr double kMaxApproach = 0.3;   // [m/s]
 

@@ -13,7 +13,6 @@
 namespace sweep_guard_evaluation {
 
 using sweep_guard_core::csvLine;
-using sweep_guard_core::csvNumber;
 using sweep_guard_core::quantile;
 using sweep_guard_recording::Recording;
 
@@ -123,7 +122,7 @@ struct Figures {
 };
 
 // In a column that says nothing about this count there is nothing.
-std::string fieldOf(bool applies, double value) { return applies ? csvNumber(value) : ""; }
+std::string fieldOf(bool applies, double value) { return applies ? sweep_guard_core::csvNumber(value) : ""; }
 
 std::string lineOf(const ClosedLoopCount& count) {
   const Figures figures(count);

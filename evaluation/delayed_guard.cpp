@@ -7,7 +7,6 @@
 namespace sweep_guard_evaluation {
 
 using sweep_guard_core::Duration;
-using sweep_guard_core::PlaneSet;
 using sweep_guard_core::Time;
 using sweep_guard_core::Twist;
 
@@ -29,7 +28,7 @@ DelayedGuard::DelayedGuard(const sweep_guard_core::Tool& tool, const DelayedGuar
     : options_(options), tool_(ballsOf(tool)), guard_(options.motion) {}
 
 void DelayedGuard::measure(const Eigen::Isometry3d& X_WT, const sweep_guard_core::Proximity& proximity, Time now) {
-  auto planes = std::make_shared<PlaneSet>();
+  auto planes = std::make_shared<sweep_guard_core::PlaneSet>();
   planes->timestamps = {now, instantOf(now + options_.plane_delay).steady};
   planes->valid_until = now + options_.plane_delay + kValid;
   planes->complete = proximity.unplaced.empty();

@@ -6,14 +6,13 @@
 
 namespace sweep_guard_evaluation {
 
-using sweep_guard_core::Duration;
 using sweep_guard_recording::Recording;
 
 namespace {
 
 /// A recording, its samples and the errors of all predictors.
 struct RecordingErrors {
-  RecordingErrors(const Recording& source, Duration future)
+  RecordingErrors(const Recording& source, sweep_guard_core::Duration future)
       : recording(source), motion(source.poses), samples(samplesOf(source.poses, motion, kHistory, future)) {}
 
   const Recording& recording;

@@ -9,15 +9,13 @@
 namespace sweep_guard_evaluation {
 namespace {
 
-using sweep_guard_recording::Recording;
-
 int run(int argc, char** argv) {
   const ClosedLoopOptions options = parseClosedLoopOptions(argc, argv);
   if (options.help) {
     std::cout << closedLoopUsage();
     return 0;
   }
-  std::vector<Recording> recordings;
+  std::vector<sweep_guard_recording::Recording> recordings;
   size_t steps = 0;
   for (const std::string& file : options.files) {
     recordings.push_back(sweep_guard_recording::readRecording(file, options.topic));

@@ -15,20 +15,14 @@
 namespace sweep_guard_evaluation {
 
 using sweep_guard_core::Duration;
-using sweep_guard_core::Guard;
 using sweep_guard_core::Instant;
-using sweep_guard_core::kMaxDeviations;
-using sweep_guard_core::Matrix6d;
 using sweep_guard_core::PredictedObject;
-using sweep_guard_core::PredictedSweep;
 using sweep_guard_core::Prediction;
 using sweep_guard_core::StampedPose;
 using sweep_guard_core::SweepReport;
 using sweep_guard_core::Time;
 using sweep_guard_core::TriangleMesh;
-using sweep_guard_core::WarningLevel;
 using sweep_guard_core::WarningLimits;
-using sweep_guard_core::WarningMonitor;
 using sweep_guard_core::Workpiece;
 using sweep_guard_core::Workpieces;
 using sweep_guard_recording::LevelTrace;
@@ -52,10 +46,10 @@ std::shared_ptr<const Workpiece> workpieceOf(const std::string& id, TriangleMesh
 TriangleMesh anyMesh() { return TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}); }
 
 /// Returns how far a tool point may be off along the axes of W [m].
-Eigen::Vector3d deviationsOf(const Matrix6d& covariance, double radius) {
+Eigen::Vector3d deviationsOf(const sweep_guard_core::Matrix6d& covariance, double radius) {
   const double turn = std::sqrt(covariance.bottomRightCorner<3, 3>().trace());
   const Eigen::Vector3d position = covariance.topLeftCorner<3, 3>().diagonal().cwiseMax(0.0).cwiseSqrt();
-  return kMaxDeviations * (position.array() + radius * turn);
+  return sweep_guard_core::kMaxDeviations * (position.array() + radius * turn);
 }
 
 class FindingsRecorder {
@@ -139,7 +133,7 @@ class FindingsRecorder {
 
   void addSweeps(const PredictedObject& object, size_t number) {
     double nearest = std::numeric_limits<double>::infinity();
-    for (const PredictedSweep& sweep : object.sweeps) {
+    for (const sweep_guard_core::PredictedSweep& sweep : object.sweeps) {
       if (!sweep.contact && sweep.deviations >= nearest) continue;
       nearest = std::min(nearest, sweep.deviations);
       pending(number);
@@ -168,7 +162,7 @@ class FindingsRecorder {
   const GuardSimulationOptions& options_;
   const sweep_guard_core::Tool tool_;
   const double radius_;
-  Guard guard_;
+  sweep_guard_core::Guard guard_;
   Workpieces workpieces_;
   std::vector<Eigen::AlignedBox3d> bounds_W_;
   GuardFindings findings_;
@@ -212,7 +206,7 @@ class FindingsPlayer {
     }
     report(pose, stamp);
     record(stamp);
-    active_ = warning_.level >= WarningLevel::kConsidered || stamp < predicted_until_;
+    active_ = warning_.level >= sweep_guard_core::WarningLevel::kConsidered || stamp < predicted_until_;
   }
 
   void report(size_t pose, Time stamp) {
@@ -255,7 +249,7 @@ class FindingsPlayer {
   const GuardFindings& findings_;
   const ObjectFindings& object_;
   const std::shared_ptr<const Workpiece> workpiece_;
-  WarningMonitor monitor_;
+  sweep_guard_core::WarningMonitor monitor_;
   bool active_ = false;  // the level is high, or may become so without anything found
   size_t next_ = 0;      // of object_.poses
   Time newest_;

@@ -8,16 +8,13 @@
 
 namespace sweep_guard_evaluation {
 
-using sweep_guard_core::ConvexShape;
-using sweep_guard_core::TriangleMesh;
-
 namespace {
 
 constexpr double kAccuracy = 1e-5;  // [m]
 
 }  // namespace
 
-ObstacleMesh::ObstacleMesh(const ConvexShape& tool, const TriangleMesh& mesh_W)
+ObstacleMesh::ObstacleMesh(const sweep_guard_core::ConvexShape& tool, const sweep_guard_core::TriangleMesh& mesh_W)
     : tool_(tool), mesh_W_(mesh_W), bounds_W_(mesh_W.bounds_M()) {}
 
 ClearanceAt ObstacleMesh::clearance() {

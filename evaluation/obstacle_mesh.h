@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <memory>
 
 #include "evaluation/first_contact.h"
 #include "sweep_guard/detection/submesh.h"

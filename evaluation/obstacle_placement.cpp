@@ -7,7 +7,6 @@
 
 namespace sweep_guard_evaluation {
 
-using std::chrono::milliseconds;
 using sweep_guard_core::ConvexShape;
 using sweep_guard_core::Duration;
 using sweep_guard_core::Time;
@@ -19,7 +18,7 @@ constexpr Duration kBefore = std::chrono::seconds(4);
 constexpr Duration kUntouchedBefore = std::chrono::seconds(2);
 constexpr Duration kAfter = std::chrono::seconds(4);
 constexpr Duration kUntouchedAfter = std::chrono::seconds(2);  // makes a warning at the end of a near miss false
-constexpr Duration kHalfVelocityWindow = milliseconds(25);
+constexpr Duration kHalfVelocityWindow = std::chrono::milliseconds(25);
 constexpr double kRestSpeed = 0.01;       // [m/s] below, the tool rests
 constexpr double kMaxGap = 0.1;           // [m] of a near miss
 constexpr int kTriesForPlacement = 1000;  // for each placement, on average

@@ -9,7 +9,6 @@
 namespace sweep_guard_evaluation {
 
 using sweep_guard_core::Duration;
-using sweep_guard_core::PosePredictor;
 using sweep_guard_core::PredictedPath;
 using sweep_guard_core::quantile;
 using sweep_guard_core::StampedPose;
@@ -83,7 +82,7 @@ std::vector<size_t> samplesOf(const std::vector<StampedPose>& poses, const Recor
 
 std::vector<ErrorsAhead> predictionErrors(const PredictionErrorRequest& request, const Progress& progress) {
   const std::vector<StampedPose>& poses = request.poses;
-  PosePredictor predictor(request.predictor);
+  sweep_guard_core::PosePredictor predictor(request.predictor);
   sweep_guard_core::PredictedPath path;
   Comparison comparison(request.motion, request.horizons, request.samples.size());
   auto sample = request.samples.begin();

@@ -1,7 +1,6 @@
 #include "evaluation/session_count.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace sweep_guard_evaluation {
 

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <array>
-#include <functional>
-#include <optional>
 #include <vector>
 
 #include "evaluation/obstacle_mesh.h"

@@ -1,6 +1,5 @@
 #include "evaluation/session_summary.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "evaluation/random.h"

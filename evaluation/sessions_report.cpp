@@ -11,7 +11,6 @@
 
 namespace sweep_guard_evaluation {
 
-using sweep_guard_core::csvFields;
 using sweep_guard_core::csvLine;
 using sweep_guard_core::csvNumber;
 using sweep_guard_core::InvalidInput;
@@ -144,7 +143,7 @@ std::vector<RecordingSessions> readSessionObjects(const std::string& csv) {
   if (line + '\n' != objectsHeader()) throw InvalidInput("line 1: not that of a --sessions-objects-csv");
   std::vector<RecordingSessions> recordings;
   for (size_t number = 2; std::getline(stream, line); ++number) {
-    std::vector<std::string> words = csvFields(line);
+    std::vector<std::string> words = sweep_guard_core::csvFields(line);
     SessionCount count;
     size_t columns = 4;
     forEachCount(count, [&](const char*, size_t) { ++columns; });

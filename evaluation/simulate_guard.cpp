@@ -7,19 +7,15 @@
 
 #include "evaluation/progress.h"
 #include "evaluation/simulated_node.h"
-#include "sweep_guard/guard/guard.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_evaluation {
 
-using sweep_guard_core::Duration;
-using sweep_guard_core::Guard;
 using sweep_guard_core::Instant;
 using sweep_guard_core::Prediction;
 using sweep_guard_core::StampedPose;
 using sweep_guard_core::SweepReport;
 using sweep_guard_core::Time;
-using sweep_guard_core::WarningLimits;
 using sweep_guard_core::WarningMonitor;
 using sweep_guard_core::Workpiece;
 using sweep_guard_recording::LevelTrace;
@@ -35,7 +31,7 @@ class ActivePlacement {
     workpiece_ = std::make_shared<const Workpiece>(
         Workpiece{std::to_string(index), 1, at.stamp, at.steady, kFrame, meshOf(placement.obstacle)});
     for (const double min_probability : options.min_probabilities) {
-      WarningLimits limits = options.limits;
+      sweep_guard_core::WarningLimits limits = options.limits;
       limits.thresholds = sweep_guard_core::WarningThresholds::ofMinProbability(min_probability);
       monitors_.emplace_back(limits).setWorkpieces({workpiece_});
       traces_.emplace_back();
@@ -111,7 +107,7 @@ class GuardSimulation {
     guard_.sweep({at.stamp, at.steady, pose.X_WT, {{kFrame, Eigen::Isometry3d::Identity()}}}, workpieces, report);
     if (active_.empty()) return;
     Prediction prediction;
-    guard_.predict(Duration(0), workpieces, prediction);
+    guard_.predict(sweep_guard_core::Duration(0), workpieces, prediction);
     distribute(report, prediction);
     for (ActivePlacement& placement : active_) placement.recordLevel(pose.stamp);
   }
@@ -143,7 +139,7 @@ class GuardSimulation {
 
   const std::vector<ObstaclePlacement>& placements_;
   const GuardSimulationOptions& options_;
-  Guard guard_;
+  sweep_guard_core::Guard guard_;
   Time newest_;
   size_t next_ = 0;  // placement
   std::list<ActivePlacement> active_;

@@ -1,6 +1,5 @@
 #include "evaluation/simulated_robot.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

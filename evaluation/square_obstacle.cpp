@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "sweep_guard/geometry/half_space.h"
-
 namespace sweep_guard_evaluation {
 
 using sweep_guard_core::ConvexShape;

@@ -10,7 +10,6 @@
 #include <limits>
 #include <locale>
 #include <sstream>
-#include <string>
 #include <type_traits>
 
 namespace sweep_guard_core {

@@ -1,7 +1,6 @@
 #include "sweep_guard/geometry/convex_shape.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>

@@ -1,6 +1,5 @@
 #include "geometry/patches.h"
 
-#include <numeric>
 #include <utility>
 
 namespace sweep_guard_core {

@@ -3,7 +3,6 @@
 #include <ccd/ccd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 namespace sweep_guard_core {

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <vector>
 
 #include "sweep_guard/geometry/mesh_order.h"
 

@@ -1,7 +1,6 @@
 #include "guard/contact_probability.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cassert>
 
-#include "sweep_guard/geometry/motion.h"
-
 namespace sweep_guard_core {
 namespace {
 

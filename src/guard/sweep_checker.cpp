@@ -7,7 +7,6 @@
 #include "detection/inside.h"
 #include "guard/swept_body.h"
 #include "guard/tool_tree.h"
-#include "guard/triangle_set.h"
 
 namespace sweep_guard_core {
 namespace {

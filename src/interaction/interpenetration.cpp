@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <vector>
 
 #include "detection/culler.h"
 #include "detection/float_planes.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/motion/velocity_limiter.h"
 
 namespace sweep_guard_core {
 namespace {

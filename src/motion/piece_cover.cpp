@@ -1,7 +1,5 @@
 #include "motion/piece_cover.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace sweep_guard_core {

@@ -1,7 +1,6 @@
 #include "sweep_guard/motion/proximity_finder.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "common/floating_point.h"
 #include "motion/facing.h"

@@ -1,11 +1,8 @@
 #include "prediction/direct_extrapolator.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
-
-#include "prediction/delayed_targets.h"
 
 namespace sweep_guard_core {
 namespace {

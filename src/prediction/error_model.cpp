@@ -1,7 +1,5 @@
 #include "prediction/error_model.h"
 
-#include "prediction/delayed_targets.h"
-
 namespace sweep_guard_core {
 namespace {
 

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "prediction/direct_extrapolator.h"
-#include "prediction/motion_tracker.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_core {

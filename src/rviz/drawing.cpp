@@ -4,7 +4,6 @@
 #include <OgreMaterialManager.h>
 #include <OgrePass.h>
 #include <OgreSceneManager.h>
-#include <OgreSceneNode.h>
 #include <OgreTechnique.h>
 
 #include <array>

@@ -2,8 +2,6 @@
 
 #include <ros/service_client.h>
 
-#include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <thread>

@@ -11,7 +11,6 @@
 #include <OgreTechnique.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <iterator>
 #include <string>

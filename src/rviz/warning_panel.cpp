@@ -12,7 +12,6 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
-#include "rviz/strip_chart.h"
 #include "rviz/traffic_light.h"
 
 namespace sweep_guard_rviz {

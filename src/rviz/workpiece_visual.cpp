@@ -8,9 +8,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "rviz/drawing.h"
 #include "rviz/ogre_conversions.h"
-#include "rviz/volume_history.h"
 
 namespace sweep_guard_rviz {
 namespace {

@@ -7,7 +7,6 @@
 #include <sweep_guard/ObjectTouches.h>
 #include <sweep_guard/ObjectView.h>
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>

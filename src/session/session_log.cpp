@@ -11,7 +11,6 @@ namespace sweep_guard_session {
 
 using sweep_guard_core::Duration;
 using sweep_guard_core::Time;
-using sweep_guard_core::WarningLevel;
 
 namespace {
 
@@ -86,7 +85,7 @@ std::vector<Contact> SessionLog::contacts() const {
   return contacts;
 }
 
-Duration SessionLog::duration(WarningLevel level) const {
+Duration SessionLog::duration(sweep_guard_core::WarningLevel level) const {
   Duration sum{0};
   for (const Segment& segment : segments()) {
     if (segment.level == level) sum += segment.end - segment.begin;

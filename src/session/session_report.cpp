@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 #include "common/csv.h"
 #include "sweep_guard/common/quantile.h"

@@ -1,8 +1,6 @@
 // Publishes the mesh of a file as a workpiece that never changes.
 #include <tf2_eigen/tf2_eigen.h>
 
-#include <string>
-
 #include "recording/run_node.h"
 #include "sweep_guard/DeformableMesh.h"
 #include "sweep_guard/ros/parameters/parameter_reader.h"

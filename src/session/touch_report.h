@@ -6,7 +6,6 @@
 
 #include <map>
 #include <string>
-#include <vector>
 
 #include "session/session_bag.h"
 #include "sweep_guard/geometry/mesh_order.h"

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 
 /// Vectors of numbers as wide as the registers of the instruction set that the including source is compiled for. Everything
 /// has internal linkage or is inlined, since it differs between the sources.

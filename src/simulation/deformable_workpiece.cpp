@@ -9,7 +9,6 @@
 #include <Eigen/Geometry>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "recording/run_node.h"
@@ -17,7 +16,6 @@
 #include "simulation/workpiece_messages.h"
 #include "sweep_guard/DeformableMesh.h"
 #include "sweep_guard/MeshVertices.h"
-#include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/parameters/parameter_reader.h"
 
 namespace sweep_guard_simulation {

@@ -35,7 +35,6 @@ namespace po = boost::program_options;
 
 namespace {
 
-using std::chrono::milliseconds;
 using std::chrono::seconds;
 using sweep_guard_core::Duration;
 using sweep_guard_core::InvalidInput;
@@ -44,7 +43,7 @@ using sweep_guard_ros::fromMsg;
 constexpr std::uint32_t kQueue = 100000;
 constexpr Duration kConnectTimeout = seconds(60);
 constexpr Duration kAnswerTimeout = seconds(1);
-constexpr Duration kLivePeriod = milliseconds(500);
+constexpr Duration kLivePeriod = std::chrono::milliseconds(500);
 volatile std::sig_atomic_t interrupted = 0;
 
 void interrupt(int) { interrupted = 1; }

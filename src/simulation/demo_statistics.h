@@ -52,11 +52,10 @@ class DemoStatistics {
   bool expects(sweep_guard_core::Time start, sweep_guard_core::Time stamp) const;
 
   std::size_t poses() const { return poses_; }
-  std::size_t sweeps() const { return latencies_.size(); }  ///< Contacts messages
-  std::size_t contacts() const { return contacts_; }        ///< Contacts messages with a workpiece
-  const std::map<std::string, std::size_t>& contactsByLink() const { return contacts_by_link_; }  ///< as contacts()
-  std::size_t trianglesInContact() const { return triangles_.size(); }                            ///< each counts once
-  std::size_t posesNotSwept() const { return not_swept_.size(); }                                 ///< until now
+  std::size_t sweeps() const { return latencies_.size(); }              ///< Contacts messages
+  std::size_t contacts() const { return contacts_; }                    ///< Contacts messages with a workpiece
+  std::size_t trianglesInContact() const { return triangles_.size(); }  ///< each counts once
+  std::size_t posesNotSwept() const { return not_swept_.size(); }       ///< until now
   std::size_t posesNeverReceived() const { return sequence_gap_; }      ///< gaps in header.seq
   std::size_t missedCycles() const;                                     ///< answers later than 1/15 s
   const std::vector<Latency>& latencies() const { return latencies_; }  ///< in order of arrival

@@ -11,7 +11,6 @@ namespace sweep_guard_simulation {
 
 using Eigen::Vector3d;
 using sweep_guard_core::limited;
-using sweep_guard_core::rotationVector;
 
 namespace {
 
@@ -47,7 +46,7 @@ void GuidedTip::moveAt(const Twist& desired, double dt) {
 
 void GuidedTip::moveTowards(const Eigen::Isometry3d& goal_W, double dt) {
   const Vector3d offset = goal_W.translation() - X_WT_.translation();
-  const Vector3d turn = rotationVector(goal_W.linear() * X_WT_.linear().transpose());
+  const Vector3d turn = sweep_guard_core::rotationVector(goal_W.linear() * X_WT_.linear().transpose());
   moveAt({approachVelocity(offset, limits_.acceleration, dt), approachVelocity(turn, limits_.turn_acceleration, dt)},
          dt);
 }

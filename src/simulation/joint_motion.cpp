@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cassert>
-#include <optional>
 
 #include "recording/bag.h"
 #include "ros/input/joint_names.h"
 #include "simulation/tip.h"
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/kinematics/joint_timeline.h"
 #include "sweep_guard/kinematics/robot_motion.h"
 #include "sweep_guard/ros/conversions.h"
 
@@ -38,7 +36,6 @@ void requireAll(const JointTimeline& timeline, const KinematicTree& tree, const 
 }
 
 using Eigen::Vector3d;
-using sweep_guard_core::Robot;
 using sweep_guard_core::TreeLink;
 
 constexpr double kRest = 1e-3;  // [m]; a shorter path has no direction
@@ -49,7 +46,7 @@ int jointsBelow(const sweep_guard_core::KinematicTree& tree, size_t link) {
   return joints;
 }
 
-size_t lastBody(const Robot& robot) {
+size_t lastBody(const sweep_guard_core::Robot& robot) {
   const auto fewer = [&robot](const auto& a, const auto& b) {
     return jointsBelow(robot.tree, a.link) < jointsBelow(robot.tree, b.link);
   };

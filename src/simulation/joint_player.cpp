@@ -5,7 +5,6 @@
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_listener.h>
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>

@@ -7,7 +7,6 @@
 
 #include "recording/run_node.h"
 #include "simulation/guided_tip.h"
-#include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/parameters/parameter_reader.h"
 
 namespace sweep_guard_simulation {

@@ -3,7 +3,6 @@
 #include <ros/names.h>
 
 #include <cstdlib>
-#include <filesystem>
 
 #include "common/floating_point.h"
 #include "sweep_guard/common/error.h"
@@ -12,7 +11,6 @@ namespace sweep_guard_ros {
 namespace {
 
 using sweep_guard_core::Duration;
-using sweep_guard_core::kInfinity;
 using sweep_guard_core::toSeconds;
 
 constexpr int kMaxMebibytes = 16777216;
@@ -94,7 +92,7 @@ BlackBoxParameters loadBlackBoxParameters(const ros::NodeHandle& private_node) {
                                    "motion_guard.");
   parameters.interaction =
       read.flag("interaction", false, "Records ~interaction, too. The guard then computes it at every pose.");
-  read.number("diagnostic_period", 1.0, {0.0, kInfinity});  // set by diagnostic_updater
+  read.number("diagnostic_period", 1.0, {0.0, sweep_guard_core::kInfinity});  // set by diagnostic_updater
   parameters.settings = read.settings();
   parameters.described = read.described();
   read.warnOfUnread();

@@ -16,9 +16,6 @@
 namespace sweep_guard_ros {
 namespace {
 
-using sweep_guard_core::RecordingCause;
-using sweep_guard_core::RecordingTrigger;
-
 constexpr auto kInspectionPeriod = std::chrono::seconds(5);
 constexpr std::size_t kObjects = 600;  // of a message in memory, besides its bytes and its definition [bytes]
 
@@ -124,13 +121,13 @@ void Recorder::tick() {
 }
 
 void Recorder::beginRecording() {
-  const RecordingTrigger::Event event = *trigger_.take();
+  const sweep_guard_core::RecordingTrigger::Event event = *trigger_.take();
   const auto ago = std::chrono::steady_clock::now() - event.begin.steady;
   const std::string name = sweep_guard_core::recordingName(
       std::chrono::system_clock::now() - std::chrono::duration_cast<std::chrono::system_clock::duration>(ago),
       event.cause);
   auto messages = std::make_shared<const HeardMessages>(window_.snapshot());
-  const bool covered = event.cause == RecordingCause::kSave || window_.covers(event.begin.stamp);
+  const bool covered = event.cause == sweep_guard_core::RecordingCause::kSave || window_.covers(event.begin.stamp);
   summary_.writing = true;
   recording_ = writer_.submit<void>([this, name, messages = std::move(messages), covered]() mutable {
     if (!covered) log_.error("late", "black box: " + name + " was written too late to contain its event");

@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "ros/connection/host_address.h"
-#include "ros/connection/publisher_links.h"
 
 namespace sweep_guard_ros {
 namespace {

@@ -2,8 +2,6 @@
 
 #include <ros/console.h>
 
-#include <utility>
-
 namespace sweep_guard_ros {
 
 Parameters withAvailableDetector(Parameters parameters) {

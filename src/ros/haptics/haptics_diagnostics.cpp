@@ -6,7 +6,6 @@ namespace sweep_guard_ros {
 namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
-using sweep_guard_core::toSeconds;
 
 constexpr double kMaxJitter = 2e-4;  // p99 [s]
 
@@ -44,7 +43,7 @@ void HapticsDiagnostics::force(Status& status) {
   status.addf("force [N]", "%.3f", state.sent.force_D.norm());
   status.addf("torque [N m]", "%.4f", state.sent.torque_D.norm());
   status.addf("depth [m]", "%.5f", rendered.depth);
-  status.addf("delay that is counted on [s]", "%.4f", toSeconds(rendered.delay));
+  status.addf("delay that is counted on [s]", "%.4f", sweep_guard_core::toSeconds(rendered.delay));
   status.addf("share of the stiffness", "%.3f", rendered.stiffness_gain);
   status.addf("energy given by an axis, at most [J]", "%.6f", state.energy);
   status.addf("tolerance [J]", "%.6f", state.tolerance);

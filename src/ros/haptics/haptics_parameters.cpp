@@ -6,12 +6,10 @@
 namespace sweep_guard_ros {
 namespace {
 
-using sweep_guard_core::Duration;
 using sweep_guard_core::ForceOptions;
-using sweep_guard_core::kInfinity;
 
 void readSources(ParameterReader& read, HapticsParameters& parameters) {
-  const Duration silence = parameters.force.limits.warning_silence;
+  const sweep_guard_core::Duration silence = parameters.force.limits.warning_silence;
   PoseSource& tool = parameters.tool;
   tool = readPoseSource(read);
   tool.silence = silence;
@@ -91,7 +89,7 @@ HapticsParameters loadHapticsParameters(const ros::NodeHandle& private_node) {
                                               "Real-time priority (SCHED_FIFO) that the thread that sends asks for. If "
                                               "the system refuses, it goes on without it, and "
                                               "the log and the diagnostics say what to set. 0: it asks for none.");
-  read.number("diagnostic_period", 1.0, {0.0, kInfinity});  // set by diagnostic_updater
+  read.number("diagnostic_period", 1.0, {0.0, sweep_guard_core::kInfinity});  // set by diagnostic_updater
   parameters.settings = read.settings();
   parameters.described = read.described();
   read.warnOfUnread();

@@ -1,6 +1,5 @@
 #include "ros/input/articulated_tool.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "sweep_guard/common/printable.h"
@@ -10,8 +9,6 @@
 namespace sweep_guard_ros {
 namespace {
 
-using sweep_guard_core::RobotMotion;
-using sweep_guard_core::RobotState;
 using sweep_guard_core::Time;
 
 constexpr double kMaxDeviation = 5e-4;  // [m], of a body from a Motion
@@ -56,7 +53,7 @@ bool ArticulatedTool::next(const std::function<std::optional<Eigen::Isometry3d>(
     place(*stamp, next_, poses);
   } else {
     const auto newest = live_.get();  // with the sizes of what is attached
-    const RobotMotion motion(model_->robot.tree, newest->robot->robot.bodies, state_, next_);
+    const sweep_guard_core::RobotMotion motion(model_->robot.tree, newest->robot->robot.bodies, state_, next_);
     const size_t parts = motion.partsFor(kMaxDeviation, kMostParts);
     for (size_t part = 1; part <= parts; ++part) {
       const auto share = static_cast<double>(part) / static_cast<double>(parts);
@@ -71,7 +68,7 @@ bool ArticulatedTool::next(const std::function<std::optional<Eigen::Isometry3d>(
   return true;
 }
 
-void ArticulatedTool::place(Time stamp, const RobotState& state, std::vector<Pose>& poses) {
+void ArticulatedTool::place(Time stamp, const sweep_guard_core::RobotState& state, std::vector<Pose>& poses) {
   bodyPoses(model_->robot.tree, model_->robot.bodies, state, X_WB_);
   Pose& pose = poses.emplace_back();
   pose.stamp = stamp;

@@ -1,7 +1,6 @@
 #include "ros/input/frame_publishers.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <utility>
@@ -14,12 +13,10 @@ namespace sweep_guard_ros {
 namespace {
 
 using sweep_guard_core::Duration;
-using sweep_guard_core::Motion;
 using sweep_guard_core::Moved;
 using sweep_guard_core::movedBetween;
 using sweep_guard_core::printable;
 using sweep_guard_core::SteadyTime;
-using sweep_guard_core::Time;
 using sweep_guard_core::toSeconds;
 using Transform = FramePublishers::Transform;
 using Samples = sweep_guard_core::SampleBuffer<Transform>;
@@ -63,7 +60,7 @@ std::optional<Moved> curvatureOf(const Samples& samples, size_t i) {
 
 // Returns how far a node places the frame from where another one does at a stamp; empty: not known.
 std::optional<Difference> differenceAt(const Transform& at, const Samples& samples) {
-  const auto is_before = [](const Transform& sample, Time stamp) { return sample.stamp < stamp; };
+  const auto is_before = [](const Transform& sample, sweep_guard_core::Time stamp) { return sample.stamp < stamp; };
   const Transform* const next = std::lower_bound(samples.begin(), samples.end(), at.stamp, is_before);
   if (next == samples.end()) return std::nullopt;
   if (next->stamp == at.stamp) return Difference{movedBetween(next->X_PF, at.X_PF), {}};
@@ -72,7 +69,7 @@ std::optional<Difference> differenceAt(const Transform& at, const Samples& sampl
   const double share = toSeconds(at.stamp - before.stamp) / toSeconds(next->stamp - before.stamp);
   const auto curvature = curvatureOf(samples, static_cast<size_t>(next - samples.begin()));
   if (!curvature) return std::nullopt;
-  return Difference{movedBetween(Motion{before.X_PF, next->X_PF}.at(share), at.X_PF), *curvature};
+  return Difference{movedBetween(sweep_guard_core::Motion{before.X_PF, next->X_PF}.at(share), at.X_PF), *curvature};
 }
 
 bool differs(const Difference& difference) {

@@ -1,6 +1,5 @@
 #include "ros/input/frame_tree.h"
 
-#include <algorithm>
 #include <vector>
 
 namespace sweep_guard_ros {

@@ -13,7 +13,6 @@ namespace sweep_guard_ros {
 namespace {
 
 using sweep_guard_core::FrameMotion;
-using sweep_guard_core::FrameMotions;
 using sweep_guard_core::InvalidInput;
 using sweep_guard_core::Time;
 
@@ -183,7 +182,7 @@ void OtherTools::hear(size_t tool, const sweep_guard::ToolBodies& msg) {
   if (timestamps.stamp == Time() || liesInFuture(timestamps.stamp))
     throw InvalidInput("the stamp of its pose is 0 or lies in the future");
   if (msg.bodies.size() != known.bodies) throw InvalidInput("its poses are not of as many bodies as its surface has");
-  FrameMotions motions;
+  sweep_guard_core::FrameMotions motions;
   for (size_t body = 0; body < known.bodies; ++body) {
     add(body, msg, known);
     motions[frameOf(known.name, known.run_id, known.revision, body)] =

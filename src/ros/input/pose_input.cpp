@@ -1,8 +1,6 @@
 #include "ros/input/pose_input.h"
 
-#include <algorithm>
 #include <boost/make_shared.hpp>
-#include <utility>
 
 #include "ros/input/future_stamp.h"
 #include "sweep_guard/common/error.h"

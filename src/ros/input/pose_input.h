@@ -3,7 +3,6 @@
 #include <geometry_msgs/PoseStamped.h>
 
 #include <atomic>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <set>

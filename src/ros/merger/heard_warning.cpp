@@ -8,14 +8,13 @@ namespace sweep_guard_ros {
 
 using sweep_guard_core::HeardWarning;
 using sweep_guard_core::InvalidInput;
-using sweep_guard_core::WarningLevel;
 
 HeardWarning heardFrom(const sweep_guard::Warning& message) {
   if (message.level > sweep_guard::Warning::CONTACT) {
     throw InvalidInput("level " + std::to_string(message.level) + " is unknown: its guard is of another version");
   }
   HeardWarning warning;
-  warning.level = static_cast<WarningLevel>(message.level);
+  warning.level = static_cast<sweep_guard_core::WarningLevel>(message.level);
   warning.reasons = message.reasons;
   warning.stamp = fromMsg(message.header.stamp);
   if (message.time_to_collision >= ros::Duration(0)) {

@@ -20,9 +20,7 @@ namespace sweep_guard_ros {
 namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
-using sweep_guard_core::HeardWarning;
 using sweep_guard_core::InvalidInput;
-using sweep_guard_core::MergedWarning;
 using sweep_guard_core::WarningLevel;
 using sweep_guard_core::WarningMerger;
 
@@ -130,7 +128,7 @@ BoundedSubscriber WarningMergerNode::subscribe(const ros::NodeHandle& node, size
 }
 
 void WarningMergerNode::hear(size_t guard, const sweep_guard::Warning& message) {
-  HeardWarning warning = heardFrom(message);
+  sweep_guard_core::HeardWarning warning = heardFrom(message);
   {
     const sweep_guard_core::Lock lock(mutex_);
     merger_.hear(guard, std::move(warning));
@@ -168,7 +166,7 @@ void WarningMergerNode::publishFlags() {
 
 // Called under the lock.
 sweep_guard::Warning WarningMergerNode::merged(const sweep_guard_core::Instant& now) const {
-  const MergedWarning all = merger_.merged(now);
+  const sweep_guard_core::MergedWarning all = merger_.merged(now);
   sweep_guard::Warning message = all.leader && !ending_ ? newest_[*all.leader] : sweep_guard::Warning();
   message.valid_until = toMsg(all.valid_until);
   if (ending_) {

@@ -4,7 +4,6 @@
 #include <ros/node_handle.h>
 #include <sweep_guard/Warning.h>
 
-#include <cstdint>
 #include <string>
 #include <vector>
 

@@ -12,9 +12,7 @@ namespace sweep_guard_ros {
 namespace {
 
 using sweep_guard_core::Instant;
-using sweep_guard_core::MotionCommand;
 using sweep_guard_core::Permission;
-using sweep_guard_core::PermissionCause;
 
 constexpr sweep_guard_core::Duration kShortest = std::chrono::milliseconds(1);  // step of a pose
 constexpr double kLate = 1.5;                                                   // periods after which a command is late
@@ -129,7 +127,7 @@ void CommandCycle::limitNewest(const Instant& at, bool only_if_changed) {
   const sweep_guard_core::MotionInputs known = takeInputs(newest);
   if (waitsForRelease(known, at)) return sendZero(at);
   try {
-    MotionCommand command = port_->read(known, cycleAt(at));
+    sweep_guard_core::MotionCommand command = port_->read(known, cycleAt(at));
     command.timestamps = *command_;
     command.period = longestInForce();
     const sweep_guard_core::GuardedMotion motion = guard_.guard(known, command, at);
@@ -168,7 +166,7 @@ void CommandCycle::sendZero(const Instant& at) {
 void CommandCycle::halt(const Instant& at) {
   if (halts_ > 0 && at.steady - sent_ < period_.mean()) return;
   sendZero(at);
-  sources_.status.update(idleStatus({Permission::kStop, PermissionCause::kOldCommand}));
+  sources_.status.update(idleStatus({Permission::kStop, sweep_guard_core::PermissionCause::kOldCommand}));
   ++halts_;
   if (parameters_.halt_messages == 0 || halts_ < parameters_.halt_messages) return;
   command_.reset();

@@ -3,7 +3,6 @@
 #include <ros/node_handle.h>
 #include <std_srvs/Trigger.h>
 
-#include <functional>
 #include <memory>
 #include <optional>
 

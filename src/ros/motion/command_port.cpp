@@ -19,9 +19,7 @@ using sweep_guard_core::GuardedMotion;
 using sweep_guard_core::MotionCommand;
 using sweep_guard_core::MotionInputs;
 using sweep_guard_core::Moved;
-using sweep_guard_core::Permission;
 using sweep_guard_core::Time;
-using sweep_guard_core::Timestamps;
 using sweep_guard_core::Twist;
 
 constexpr std::uint32_t kCommandsQueued = 1;  // only the newest counts
@@ -47,7 +45,7 @@ void stampNow(Msg& msg) {
 Eigen::Vector3d fromXyz(const geometry_msgs::Vector3& v) { return {v.x, v.y, v.z}; }
 
 template <typename Msg>
-Timestamps timestampsOf(const Msg& msg) {
+sweep_guard_core::Timestamps timestampsOf(const Msg& msg) {
   const sweep_guard_core::Instant at = now();
   const Time stamp = fromMsg(headerOf(msg).stamp);
   return {stamp == Time() ? at.stamp : stamp, at.steady};
@@ -160,7 +158,7 @@ class PosePort : public TypedPort<geometry_msgs::PoseStamped> {
   }
 
   void send(const GuardedMotion& motion) override {
-    if (motion.decision.permission == Permission::kStop) {
+    if (motion.decision.permission == sweep_guard_core::Permission::kStop) {
       follower_.hold(tool_is_fresh_);
     } else {
       follower_.moveOn(motion.twist_W);

@@ -1,7 +1,6 @@
 #include "ros/motion/guard_input.h"
 
 #include <memory>
-#include <utility>
 
 #include "ros/connection/sole_publisher.h"
 #include "ros/input/future_stamp.h"

@@ -5,7 +5,6 @@
 #include <sweep_guard/Warning.h>
 
 #include <array>
-#include <cstddef>
 #include <string>
 
 #include "common/pool.h"

@@ -6,8 +6,6 @@ namespace sweep_guard_ros {
 namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
-using sweep_guard_core::InputRecord;
-using sweep_guard_core::toSeconds;
 
 }  // namespace
 
@@ -35,7 +33,7 @@ void MotionDiagnostics::motion(Status& status) const {
 
 void MotionDiagnostics::command(Status& status) const {
   const CommandPort& port = sources_.cycle.port();
-  const InputRecord::Summary record = sources_.cycle.record().summary();
+  const sweep_guard_core::InputRecord::Summary record = sources_.cycle.record().summary();
   status.summary(DiagnosticStatus::OK, silent(record) ? "no command now" : "received");
   if (port.commandPublishers() == 0) status.summary(DiagnosticStatus::WARN, "no publisher on " + port.commandTopic());
   if (port.commandPublishers() > 1) {
@@ -43,7 +41,7 @@ void MotionDiagnostics::command(Status& status) const {
   }
   status.add("topic", port.commandTopic());
   status.add("publishers", port.commandPublishers());
-  status.addf("period that is counted on [s]", "%.4f", toSeconds(sources_.cycle.period()));
+  status.addf("period that is counted on [s]", "%.4f", sweep_guard_core::toSeconds(sources_.cycle.period()));
   addRecord("command", record, status);
 }
 

@@ -2,8 +2,6 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 
-#include <string>
-
 #include "ros/motion/command_cycle.h"
 #include "ros/motion/guard_input.h"
 #include "ros/motion/output_watch.h"

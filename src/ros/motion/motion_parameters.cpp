@@ -8,10 +8,6 @@
 namespace sweep_guard_ros {
 namespace {
 
-using sweep_guard_core::Duration;
-using sweep_guard_core::kInfinity;
-using sweep_guard_core::MotionGuardOptions;
-
 void readCommand(ParameterReader& read, MotionParameters& parameters) {
   const std::map<std::string, CommandType> types = {{"twist_stamped", CommandType::kTwistStamped},
                                                     {"twist", CommandType::kTwist},
@@ -77,7 +73,7 @@ void readTimes(ParameterReader& read, MotionParameters& parameters) {
 }
 
 void readMotion(ParameterReader& read, MotionParameters& parameters) {
-  MotionGuardOptions& options = parameters.options;
+  sweep_guard_core::MotionGuardOptions& options = parameters.options;
   options.deceleration = read.number("deceleration", options.deceleration, {0.01, 1000.0, "m/s^2"},
                                      "Deceleration of any tool point that the robot reaches when it is stopped.");
   options.standoff = read.number("standoff", options.standoff, {0.0, 1.0, "m"},
@@ -104,7 +100,7 @@ MotionParameters loadMotionParameters(const ros::NodeHandle& private_node) {
   parameters.guard = readGuard(read);
   readTimes(read, parameters);
   readMotion(read, parameters);
-  read.number("diagnostic_period", 1.0, {0.0, kInfinity});  // set by diagnostic_updater
+  read.number("diagnostic_period", 1.0, {0.0, sweep_guard_core::kInfinity});  // set by diagnostic_updater
   parameters.follower.dead_time = parameters.options.dead_time;
   parameters.follower.time_constant = parameters.options.time_constant;
   parameters.follower.deceleration = parameters.options.deceleration;

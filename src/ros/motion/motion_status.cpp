@@ -13,7 +13,6 @@ using sweep_guard::MotionStatus;
 using sweep_guard_core::GuardedMotion;
 using sweep_guard_core::Moved;
 using sweep_guard_core::Permission;
-using sweep_guard_core::PermissionCause;
 using sweep_guard_core::printable;
 
 MotionStatus emptyStatus() {
@@ -24,7 +23,7 @@ MotionStatus emptyStatus() {
 }
 
 std::int8_t codeOf(const GuardedMotion& motion) {
-  if (motion.decision.cause == PermissionCause::kOldCommand) return MotionStatus::INVALID;
+  if (motion.decision.cause == sweep_guard_core::PermissionCause::kOldCommand) return MotionStatus::INVALID;
   if (motion.decision.permission == Permission::kStop) return MotionStatus::HALT_FOR_COLLISION;
   if (motion.scale >= 1.0 && !motion.limiting) return MotionStatus::NO_WARNING;
   const bool halts = !(motion.sent_speed > 0.0) && motion.commanded_speed > 0.0;

@@ -3,7 +3,6 @@
 #include <ros/init.h>
 #include <ros/poll_manager.h>
 
-#include <chrono>
 #include <condition_variable>
 #include <memory>
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "common/floating_point.h"
 #include "common/number_text.h"
@@ -20,7 +19,6 @@ namespace {
 using sweep_guard_core::Duration;
 using sweep_guard_core::kInfinity;
 using sweep_guard_core::shortestText;
-using sweep_guard_core::toSeconds;
 using sweep_guard_core::WarningThresholds;
 
 constexpr double kMinStep = 0.001;        // [s]
@@ -58,8 +56,8 @@ sweep_guard_core::PredictorOptions readPredictor(ParameterReader& read) {
       read.live().number("prediction/forgetting_factor", options.forgetting_factor, {0.01, 1.0},
                          "Weight of a sample relative to the next one. Smaller follows turns sooner, "
                          "larger filters more noise.");
-  options.window = toDuration(read.live().number("prediction/window", toSeconds(options.window), {0.02, 10.0, "s"},
-                                                 "Polynomials ignore samples that are older."));
+  options.window = toDuration(read.live().number("prediction/window", sweep_guard_core::toSeconds(options.window),
+                                                 {0.02, 10.0, "s"}, "Polynomials ignore samples that are older."));
   options.max_speed =
       read.live().number("limits/max_speed", options.max_speed, {0.001, 1000.0, "m/s"},
                          "No prediction moves the tip faster, or a joint that slides. A faster pose is a jump (reason "

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -17,7 +16,6 @@ namespace {
 using sweep_guard::CheckTrajectory;
 using sweep_guard_core::InvalidInput;
 using sweep_guard_core::PathResult;
-using sweep_guard_core::printable;
 using sweep_guard_core::RobotPath;
 using sweep_guard_core::RobotState;
 
@@ -35,7 +33,7 @@ std::vector<size_t> variablesOf(const RobotModel& model, const std::vector<std::
   for (const std::string& name : names) {
     variables.push_back(variableNamed(model.robot.tree, name));
     if (std::count(variables.begin(), variables.end(), variables.back()) > 1) {
-      throw InvalidInput("joint_names has '" + printable(name) + "' twice");
+      throw InvalidInput("joint_names has '" + sweep_guard_core::printable(name) + "' twice");
     }
   }
   return variables;

@@ -3,12 +3,9 @@
 #include <ros/service_server.h>
 #include <sweep_guard/CheckTrajectory.h>
 
-#include <vector>
-
 #include "ros/service/limited_calls.h"
 #include "ros/service/path_tests.h"
 #include "ros/service/service_threads.h"
-#include "sweep_guard/kinematics/robot_path.h"
 
 namespace sweep_guard_ros {
 

@@ -13,7 +13,6 @@ namespace {
 
 using sweep_guard_core::InvalidInput;
 using sweep_guard_core::isName;
-using sweep_guard_core::SteadyTime;
 
 constexpr std::uint32_t kQueueLength = 100;  // of a stroke of the brush
 

@@ -13,7 +13,6 @@ namespace {
 
 using sweep_guard::Predict;
 using sweep_guard_core::Duration;
-using sweep_guard_core::InvalidInput;
 using sweep_guard_core::PredictionInterval;
 
 constexpr Duration kMaxHorizon = std::chrono::seconds(5);
@@ -31,8 +30,8 @@ Duration checkedHorizon(const ros::Duration& horizon, Duration configured) {
   const Duration asked(horizon.toNSec());
   if (asked == Duration::zero()) return configured;
   if (asked < Duration::zero() || asked > kMaxHorizon) {
-    throw InvalidInput("horizon is " + std::to_string(horizon.toSec()) +
-                       " s, but must be from 0 (as configured) to 5 s");
+    throw sweep_guard_core::InvalidInput("horizon is " + std::to_string(horizon.toSec()) +
+                                         " s, but must be from 0 (as configured) to 5 s");
   }
   return asked;
 }

@@ -13,8 +13,6 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 using sweep_guard_core::InvalidInput;
-using sweep_guard_core::SteadyTime;
-using sweep_guard_core::WarningMerger;
 
 constexpr std::uint32_t kRate = 48000;  // samples per second
 constexpr auto kTickPeriod = std::chrono::milliseconds(10);
@@ -55,7 +53,7 @@ EarconNode::EarconNode(const ros::NodeHandle& node, const ros::NodeHandle& priva
   using Event = ros::MessageEvent<const sweep_guard::Warning>;
   subscriber_ = subscribeBounded<sweep_guard::Warning>(
       thread_.on(node), {"warning", 10, kMaxMessageSize},
-      [this, refuse, sole = SolePublisher(WarningMerger::kValid)](const Event& event) mutable {
+      [this, refuse, sole = SolePublisher(sweep_guard_core::WarningMerger::kValid)](const Event& event) mutable {
         try {
           if (!sole.alone(event.getPublisherName(), now().steady)) throw InvalidInput("several nodes publish it");
           hear(*event.getConstMessage());
@@ -111,7 +109,7 @@ void EarconNode::sound() {
 }
 
 void EarconNode::play(const sweep_guard_core::SoundCue& cue) {
-  const SteadyTime at = std::chrono::steady_clock::now();
+  const sweep_guard_core::SteadyTime at = std::chrono::steady_clock::now();
   if (!player_) {
     if (at < next_start_) return;
     next_start_ = at + kStartPeriod;

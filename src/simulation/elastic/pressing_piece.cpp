@@ -8,9 +8,6 @@
 namespace sweep_guard_simulation {
 
 using Eigen::Vector3d;
-using sweep_guard_core::ForceLaw;
-using sweep_guard_core::HalfSpace;
-using sweep_guard_core::Interpenetration;
 using sweep_guard_core::TriangleMesh;
 
 namespace {
@@ -60,7 +57,7 @@ void forPartsOfTriangle(int count, const Visit& visit) {
 
 }  // namespace
 
-PressingPiece::PressingPiece(const sweep_guard_core::ConvexShape& shape_T, const ForceLaw& law)
+PressingPiece::PressingPiece(const sweep_guard_core::ConvexShape& shape_T, const sweep_guard_core::ForceLaw& law)
     : finder_(shape_T),
       polytope_(shape_T),
       radius_(reachOf(polytope_)),
@@ -70,7 +67,7 @@ PressingPiece::PressingPiece(const sweep_guard_core::ConvexShape& shape_T, const
 }
 
 void PressingPiece::press(const TriangleMesh& mesh_M, const Eigen::Isometry3d& X_MT, std::vector<Pressure>& pressures) {
-  const Interpenetration found = finder_.find(mesh_M, X_MT);
+  const sweep_guard_core::Interpenetration found = finder_.find(mesh_M, X_MT);
   const double force = interactionForce(found, Vector3d::Zero(), law_).force_T.norm();
   if (!(force > 0.0)) return;
   const Vector3d outward_T = found.area_T.normalized();
@@ -106,7 +103,7 @@ void PressingPiece::press(const TriangleMesh& mesh_M, const Eigen::Isometry3d& X
 // How far a point inside the piece is from where it leaves the piece against `outward`.
 double PressingPiece::depth(const Vector3d& p_T, const Vector3d& outward_T) const {
   double depth = std::numeric_limits<double>::infinity();
-  for (const HalfSpace& half_space : polytope_.halfSpaces()) {
+  for (const sweep_guard_core::HalfSpace& half_space : polytope_.halfSpaces()) {
     const double distance = -half_space.signedDistance(p_T);
     if (!(distance > 0.0)) return 0.0;
     const double leaving = -half_space.normal().dot(outward_T);
