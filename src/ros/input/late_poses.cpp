@@ -59,10 +59,10 @@ std::optional<Eigen::Isometry3d> LatePoses::find(const std::string& frame, sweep
   const std::string& fixed_frame = live_.initial().fixed_frame;
   for (const bool waits : {false, true}) {
     if (waits) has_begun_to_wait_ = true;
+    const auto newest = frames_.newest(fixed_frame, frame);  // before the lookup: what comes between the two is found
     try {
       return frames_.lookup(fixed_frame, frame, stamp);
     } catch (const FrameError& error) {
-      const auto newest = frames_.newest(fixed_frame, frame);
       if (!newest || *newest >= stamp) throw;
       if (std::chrono::steady_clock::now() - since > live_.get()->limits.pose_timeout)
         throw FrameError(std::string(error.what()) + ": it has not come within timing/pose_timeout");
