@@ -36,7 +36,7 @@ class MeasuredSweeps {
   /// Adds a pose that the next sweep passes through.
   /// @param body    pose of the swept body at that time
   /// @param frames  that move on their own; those of the pose by these names do not count
-  void pass(const PoseWithFrames& pose, const BodyPose& body, const FrameMotions& frames = kNoFrameMotions);
+  void pass(const PoseWithFrames& pose, const BodyPose& body, const FrameMotions& frames);
 
   /// Sweeps through the poses passed since the last sweep to this pose. Against a workpiece in a frame that moves on its own,
   /// up to the newest measured pose of the frame, if that pose is older. A workpiece that has other triangles is swept with the

@@ -50,7 +50,7 @@ struct NearestPiece {
 };
 
 /// Lower bounds on the deviations of the pieces below each node of a tool's tree, during one segment, before there are
-/// volumes of the pieces: what comes no nearer than an earlier sweep need not be swept at all.
+/// volumes of the pieces. A piece that comes no nearer than in an earlier sweep need not be swept at all.
 class PieceBounds {
  public:
   /// Bounds nothing.

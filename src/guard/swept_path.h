@@ -19,7 +19,7 @@ struct SweptSegment {
   Eigen::AlignedBox3d reach_M;           ///< holds every tool point, with every error that counts [m]
   std::vector<SweptBody> bodies;         ///< the tool as a whole, during each sub-motion
   std::vector<PerHalfSpace> deviations;  ///< of the planes of their volumes; empty: SweptPath::measure() has not run
-  UncertainPose end_M;                   ///< likewise
+  UncertainPose end_M;                   ///< pose at the end; set by SweptPath::measure()
   std::array<size_t, 2> halves{};        ///< numbers of the halves; 0: SweptPath::halve() has not run
 };
 

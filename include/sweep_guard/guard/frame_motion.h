@@ -49,7 +49,6 @@ struct FrameMotion {
 
 /// The motions of frames by their names, none null.
 using FrameMotions = std::map<std::string, std::shared_ptr<const FrameMotion>>;
-inline const FrameMotions kNoFrameMotions;
 
 /// The poses of a frame at the times of a path of the tool.
 struct FramePath {

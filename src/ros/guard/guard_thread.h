@@ -33,19 +33,20 @@ class GuardThread {
 
   /// Sets other parameters for the guard and the node. Returns when they are set. Any thread.
   /// @throws sweep_guard_core::DeviceError if a new detector cannot be created or fails its test; then nothing is set
-  /// @throws sweep_guard_core::Error if a sweep lasts longer than 0.5 s, or the guard is shutting down; then nothing is
-  ///     set, also later
+  /// @throws sweep_guard_core::Error if a sweep lasts longer than 0.5 s, other parameters were set meanwhile, or the guard is
+  ///     shutting down; then nothing is set, also later
   void apply(const std::shared_ptr<const Parameters>& next);
   /// Exchanges the tool, and forgets the poses and what rests on them, as reset() does: the warning is UNKNOWN until two
   /// other poses have arrived. Returns when that is done. Any thread.
   /// @param before        parameters that `next` was made from
   /// @param change_store  takes the payload out of the workpieces or puts it back, between the same two sweeps; may throw
-  /// @throws sweep_guard_core::Error as apply(), or if other parameters were set meanwhile; then nothing is exchanged
+  /// @throws sweep_guard_core::Error as apply(); then nothing is exchanged
   void exchangeTool(const std::shared_ptr<const Parameters>& before, const std::shared_ptr<const Parameters>& next,
                     const std::function<void()>& change_store);
   /// Returns the newest swept pose. Any thread. The future throws sweep_guard_core::Error if there is none, or it is stale.
   std::future<sweep_guard_core::PoseWithFrames> newestPose();
-  /// Forgets poses, contacts, intentions and what was learned; keeps workpieces, parameters, touches and what is attached. Returns when that is done. Any thread.
+  /// Forgets poses, contacts, intentions and what was learned; keeps workpieces, parameters, touches and what is attached.
+  /// Returns when that is done. Any thread.
   /// @throws sweep_guard_core::Error as apply(); then nothing is forgotten, also later
   void reset();
   /// Acknowledges a warning, see WarningMonitor. Returns when that is done. Any thread.
