@@ -59,8 +59,8 @@ std::optional<Eigen::Isometry3d> LatePoses::find(const std::string& frame, sweep
   const std::string& fixed_frame = live_.initial().fixed_frame;
   for (const bool waits : {false, true}) {
     if (waits) has_begun_to_wait_ = true;
-    const auto newest =
-        frames_.newest(fixed_frame, frame);  // read first: the lookup finds a transform that comes after this
+    // Read first: the lookup finds a transform that comes after this.
+    const auto newest = frames_.newest(fixed_frame, frame);
     try {
       return frames_.lookup(fixed_frame, frame, stamp);
     } catch (const FrameError& error) {
