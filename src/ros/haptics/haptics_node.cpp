@@ -7,9 +7,16 @@
 namespace sweep_guard_ros {
 namespace {
 
+using diagnostic_msgs::DiagnosticStatus;
+
 constexpr auto kClockPeriod = std::chrono::milliseconds(20);
 constexpr auto kDiagnosticsPeriod = std::chrono::seconds(1);
 constexpr size_t kMaxTransforms = 64 << 20;  // size of a message [bytes]
+
+constexpr double kMaxJitter = 2e-4;  // p99 [s]
+
+// Whatever the level: mergeSummary() drops what is said beside OK.
+void addRemark(const std::string& remark, DiagnosticsLine& line) { line.message += "; " + remark; }
 
 }  // namespace
 
@@ -21,16 +28,23 @@ HapticsNode::HapticsNode(const ros::NodeHandle& node, const ros::NodeHandle& pri
       guard_(node, parameters_.guard),
       tool_pose_(node, parameters_.tool, frames_),
       axes_(frames_, parameters_.guard.fixed_frame, parameters_.device_frame),
-      priority_(parameters_.realtime_priority, "realtime_priority") {
+      priority_(parameters_.realtime_priority, "realtime_priority"),
+      updater_(node, private_node, private_node.getNamespace()) {
   if (parameters_.device_tells_pose) device_pose_.emplace(node, parameters_.device(), frames_);
   cycle_.emplace(node, parameters_, ForceCycleSources{guard_, tool_pose_, device(), axes_});
   output_watch_.emplace(cycle_->topic());
-  diagnostics_.emplace(
-      node, private_node,
-      HapticsDiagnosticsSources{*cycle_, axes_, priority_, guard_, tool_pose_, device(), *output_watch_});
+  updater_.setHardwareID("none");
+  updater_.add("force", [this](DiagnosticsLine& line) { force(line); });
+  updater_.add("output", [this](DiagnosticsLine& line) { output(line); });
+  updater_.add("guard", [this](DiagnosticsLine& line) { reportGuard(guard_, line); });
+  updater_.add("tool pose", [this](DiagnosticsLine& line) { reportPose(tool_pose_, "tool pose", line); });
+  if (device_pose_) {
+    updater_.add("device pose",
+                 [this](DiagnosticsLine& line) { reportPose(*device_pose_, "pose of the device", line); });
+  }
   forces_.every(ForceCycle::kPeriod, [this] { cycle_->tick(); });
   reports_.every(kClockPeriod, [this] { frames_.checkClock(); });
-  reports_.every(kDiagnosticsPeriod, [this] { diagnostics_->publish(); });
+  reports_.every(kDiagnosticsPeriod, [this] { updater_.force_update(); });
 }
 
 // Not in the constructor: where one thread cannot be started, the destructor ends the others.
@@ -55,6 +69,40 @@ HapticsNode::~HapticsNode() {
   flush();
   reports_.stop();
   master_watch_.stop();  // its thread uses the supervisor, which is declared after it
+}
+
+void HapticsNode::force(DiagnosticsLine& line) {
+  const ForceCycle::State state = cycle_->state();
+  const sweep_guard_core::RenderedForce& rendered = state.rendered;
+  const bool whole = rendered.permission.gain >= 1.0;
+  line.summary(whole ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
+               whole ? "sent" : std::string("zero: ") + textOf(rendered.permission.cause));
+  if (rendered.stiffness_gain < 1.0) addRemark("softer, for the delay", line);
+  const std::string problem = axes_.problem();
+  if (!problem.empty()) {
+    line.mergeSummary(DiagnosticStatus::ERROR, "device_frame: " + problem);
+    log_.error("", "device_frame: " + problem);
+  }
+  line.addf("force [N]", "%.3f", state.sent.force_D.norm());
+  line.addf("torque [N m]", "%.4f", state.sent.torque_D.norm());
+  line.addf("depth [m]", "%.5f", rendered.depth);
+  line.addf("delay that is counted on [s]", "%.4f", sweep_guard_core::toSeconds(rendered.delay));
+  line.addf("share of the stiffness", "%.3f", rendered.stiffness_gain);
+  line.addf("energy given by an axis, at most [J]", "%.6f", state.energy);
+  line.addf("tolerance [J]", "%.6f", state.tolerance);
+  if (!(state.turn_tolerance > 0.0)) return;
+  line.addf("energy given about an axis, at most [J]", "%.6f", state.turn_energy);
+  line.addf("tolerance about an axis [J]", "%.6f", state.turn_tolerance);
+}
+
+void HapticsNode::output(DiagnosticsLine& line) const {
+  const TickRecord::Summary ticks = cycle_->ticks().summary();
+  reportOutput(*output_watch_, {cycle_->topic(), cycle_->subscribers(), "haptics", "nothing is felt"}, line);
+  if (ticks.p99 > kMaxJitter) line.mergeSummary(DiagnosticStatus::WARN, "late: the processor is busy");
+  const std::string refusal = priority_.refusal();
+  if (!refusal.empty()) addRemark(refusal, line);
+  line.addf("jitter p99 [ms]", "%.3f", 1e3 * ticks.p99);
+  line.addf("jitter, largest [ms]", "%.3f", 1e3 * ticks.largest);
 }
 
 }  // namespace sweep_guard_ros

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <diagnostic_updater/diagnostic_updater.h>
+
 #include <optional>
 
 #include "ros/connection/master_watch.h"
 #include "ros/haptics/force_cycle.h"
-#include "ros/haptics/haptics_diagnostics.h"
 #include "ros/input/frames.h"
+#include "ros/motion/input_diagnostics.h"
+#include "ros/process/log_throttle.h"
 #include "ros/threads/real_time_request.h"
 #include "ros/threads/supervisor.h"
 #include "ros/threads/timer_thread.h"
@@ -25,6 +28,11 @@ class HapticsNode {
   void start();  ///< begins to send; once
 
  private:
+  // Lines of /diagnostics: what force is sent and why, what the delay takes of the stiffness, and the energy at the device;
+  // the jitter of the output and who else publishes there.
+  void force(DiagnosticsLine& line);
+  void output(DiagnosticsLine& line) const;
+
   const ToolPoseInput* device() const { return device_pose_ ? &*device_pose_ : nullptr; }
 
   // Members use only earlier members.
@@ -39,7 +47,8 @@ class HapticsNode {
   RealTimeRequest priority_;
   std::optional<ForceCycle> cycle_;
   std::optional<OutputWatch> output_watch_;
-  std::optional<HapticsDiagnostics> diagnostics_;
+  LogThrottle log_;
+  diagnostic_updater::Updater updater_;
   TimerThread forces_;
   TimerThread reports_;
 };
