@@ -111,7 +111,7 @@ void BlackBoxNode::memory(Status& status) const {
 void BlackBoxNode::recordings(Status& status) const {
   const Recorder::Summary summary = recorder_.summary();
   std::uintmax_t size = 0;
-  for (const auto& recording : summary.stored) size += recording.size;
+  for (const auto& [name, bytes] : summary.stored) size += bytes;
   status.summary(DiagnosticStatus::OK, summary.writing ? "a recording is being written" : "ready");
   if (summary.failed > 0) status.summary(DiagnosticStatus::WARN, "a recording could not be written: see the log");
   if (!summary.problem.empty()) status.summary(DiagnosticStatus::ERROR, "nothing can be written: " + summary.problem);
