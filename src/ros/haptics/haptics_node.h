@@ -5,9 +5,12 @@
 #include <optional>
 
 #include "ros/connection/master_watch.h"
+#include "ros/haptics/device_axes.h"
 #include "ros/haptics/force_cycle.h"
 #include "ros/input/frames.h"
+#include "ros/motion/guard_input.h"
 #include "ros/motion/input_diagnostics.h"
+#include "ros/motion/tool_pose_input.h"
 #include "ros/process/log_throttle.h"
 #include "ros/threads/real_time_request.h"
 #include "ros/threads/supervisor.h"
@@ -33,7 +36,7 @@ class HapticsNode {
   void force(DiagnosticsLine& line);
   void output(DiagnosticsLine& line) const;
 
-  const ToolPoseInput* device() const { return device_pose_ ? &*device_pose_ : nullptr; }
+  void tick();  // of `forces_`; allocates nothing
 
   // Members use only earlier members.
   const HapticsParameters parameters_;
@@ -45,8 +48,8 @@ class HapticsNode {
   std::optional<ToolPoseInput> device_pose_;
   DeviceAxes axes_;
   RealTimeRequest priority_;
-  std::optional<ForceCycle> cycle_;
-  std::optional<OutputWatch> output_watch_;
+  ForceCycle cycle_;
+  OutputWatch output_watch_;
   LogThrottle log_;
   diagnostic_updater::Updater updater_;
   TimerThread forces_;

@@ -21,9 +21,9 @@ MotionGuardNode::MotionGuardNode(const ros::NodeHandle& node, const ros::NodeHan
       master_watch_(private_node, [this] { return parameters_.settings; }),
       supervisor_(process),
       frames_(node, kMaxTransforms, [](const std::string& /*parent*/, const std::string& /*child*/) {}),
-      guard_(node, parameters_.guardSource()),
-      tool_pose_(node, parameters_.poseSource(), frames_),
-      status_(private_node, parameters_.fixed_frame),
+      guard_(node, parameters_.guard, parameters_.tool),
+      tool_pose_(node, parameters_.tool, frames_),
+      status_(private_node, parameters_.tool.fixed_frame),
       hold_(private_node),
       cycle_(node, private_node, parameters_, {guard_, tool_pose_, frames_, status_, hold_}),
       output_watch_(cycle_.port().guardedTopic()),
@@ -32,7 +32,7 @@ MotionGuardNode::MotionGuardNode(const ros::NodeHandle& node, const ros::NodeHan
   updater_.add("motion", [this](DiagnosticsLine& line) { motion(line); });
   updater_.add("command", [this](DiagnosticsLine& line) { command(line); });
   updater_.add("output", [this](DiagnosticsLine& line) { output(line); });
-  updater_.add("guard", [this](DiagnosticsLine& line) { reportGuard(guard_, line); });
+  updater_.add("guard", [this](DiagnosticsLine& line) { guard_.report(line); });
   updater_.add("tool pose", [this](DiagnosticsLine& line) { reportPose(tool_pose_, "tool pose", line); });
   ticks_.every(CommandCycle::kTickPeriod, [this] { cycle_.tick(); });
   ticks_.every(kHoldPeriod, [this] { cycle_.publishHold(hold_); });
@@ -53,7 +53,7 @@ void MotionGuardNode::start() {
   master_watch_.start(supervisor_);
   supervisor_.start();
   ROS_INFO("guarding the motion of '%s' in '%s': commands from %s, guarded ones to %s, planes from %s",
-           parameters_.tool_frame.c_str(), parameters_.fixed_frame.c_str(), cycle_.port().commandTopic().c_str(),
+           parameters_.tool.frame.c_str(), parameters_.tool.fixed_frame.c_str(), cycle_.port().commandTopic().c_str(),
            cycle_.port().guardedTopic().c_str(), parameters_.guard.c_str());
 }
 
@@ -94,8 +94,7 @@ void MotionGuardNode::command(DiagnosticsLine& line) const {
 
 void MotionGuardNode::output(DiagnosticsLine& line) const {
   const CommandPort& port = cycle_.port();
-  reportOutput(output_watch_, {port.guardedTopic(), port.guardedSubscribers(), "motion_guard", "nothing is moved"},
-               line);
+  reportOutput(output_watch_, port.guardedSubscribers(), "motion_guard", "nothing is moved", line);
 }
 
 }  // namespace sweep_guard_ros
