@@ -16,7 +16,6 @@
 namespace sweep_guard_core {
 
 class Faults;
-class LateFrames;
 class Refusals;
 class SweptWorkpieces;
 class WorkpieceWarnings;
@@ -264,7 +263,6 @@ class WarningMonitor {
   mutable WarningInputs inputs_
       GUARDED_BY(mutex_);  // covered_until, waiting_since and hung are those of the last warning
   const std::unique_ptr<Faults> faults_ PT_GUARDED_BY(mutex_);  // these keep their part of the inputs
-  const std::unique_ptr<LateFrames> late_frames_ PT_GUARDED_BY(mutex_);
   const std::unique_ptr<SweptWorkpieces> workpieces_ PT_GUARDED_BY(mutex_);
   const std::unique_ptr<WorkpieceWarnings> warnings_ PT_GUARDED_BY(mutex_);
   const std::unique_ptr<Refusals> refused_meshes_ PT_GUARDED_BY(mutex_);

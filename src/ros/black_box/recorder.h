@@ -55,9 +55,9 @@ class Recorder {
     bool writing;
     std::size_t written = 0;
     std::size_t failed = 0;
-    std::string newest;                                     ///< path of the newest bag; empty: none since the start
-    std::string problem;                                    ///< why nothing can be written; empty: nothing known
-    std::vector<sweep_guard_core::StoredRecording> stored;  ///< as of the last look at the folder
+    std::string newest;                       ///< path of the newest bag; empty: none since the start
+    std::string problem;                      ///< why nothing can be written; empty: nothing known
+    sweep_guard_core::RecordingSizes stored;  ///< as of the last look at the folder
   };
   Summary summary() const;  ///< any thread
 

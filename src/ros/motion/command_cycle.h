@@ -56,7 +56,7 @@ class CommandCycle {
  private:
   using Trigger = std_srvs::Trigger;
 
-  void onCommand(const CommandPort::Received& received);
+  void onCommand(const CommandPort::Message& message, const sweep_guard_core::Timestamps& timestamps);
   void refuse(const std::string& reason);
   ros::ServiceServer advertiseRebase(ros::NodeHandle node);
   bool onRebase(Trigger::Request& request, Trigger::Response& response);
@@ -64,7 +64,7 @@ class CommandCycle {
   bool letsThrough(const sweep_guard_core::Instant& at) const REQUIRES(mutex_);
   sweep_guard_core::Duration longestInForce() const REQUIRES(mutex_);
   CommandPort::Cycle cycleAt(const sweep_guard_core::Instant& at) const REQUIRES(mutex_);
-  sweep_guard_core::MotionInputs takeInputs(GuardInput::Newest& newest) const;
+  sweep_guard_core::MotionInputs inputs(sweep_guard::Proximity::ConstPtr* planes = nullptr) const;
   void limitNewest(const sweep_guard_core::Instant& at, bool only_if_changed) REQUIRES(mutex_);
   bool waitsForRelease(const sweep_guard_core::MotionInputs& known, const sweep_guard_core::Instant& at) const
       REQUIRES(mutex_);
@@ -73,7 +73,6 @@ class CommandCycle {
 
   const MotionParameters& parameters_;
   const CommandCycleSources sources_;
-  const CommandFrames frames_;
   const std::string topic_;  // resolved, of the commands
   sweep_guard_core::InputRecord record_;
   LogThrottle log_;

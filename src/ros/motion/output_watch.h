@@ -23,6 +23,7 @@ class OutputWatch {
     thread_.start(supervisor, {"output watch", sweep_guard_core::Stage::kOther, /*watched=*/false});
   }
 
+  const std::string& topic() const { return topic_; }
   std::vector<std::string> otherPublishers() const;  ///< names of nodes, as of the newest answer. Any thread
 
  private:

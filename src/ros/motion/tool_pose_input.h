@@ -9,7 +9,7 @@
 #include "monitor/input_record.h"
 #include "ros/connection/bounded.h"
 #include "ros/input/frames.h"
-#include "ros/motion/guard_source.h"
+#include "ros/motion/pose_source.h"
 #include "ros/process/log_throttle.h"
 #include "ros/threads/queue_thread.h"
 #include "sweep_guard/common/mutex.h"

@@ -50,8 +50,9 @@ class ZeroOnSilence {
   ParameterReader::Settings settings_;
   MasterWatch master_watch_;  // before what registers at the master
   LogThrottle log_;
+  const sweep_guard_core::Duration timeout_;
   sweep_guard_core::Mutex mutex_;  // of the next four: commands and zeros leave in the order of their decisions
-  sweep_guard_core::CommandSilence silence_ GUARDED_BY(mutex_);
+  std::optional<sweep_guard_core::SteadyTime> newest_ GUARDED_BY(mutex_);  // when the newest command was received
   std::function<void()> send_zero_;
   std::uint64_t passed_ GUARDED_BY(mutex_) = 0;
   std::string last_refusal_ GUARDED_BY(mutex_);

@@ -221,9 +221,9 @@ visualization_msgs::MarkerArray Markers::draw(const MarkerScene& scene) {
   return array;
 }
 
-bool isOfWarning(const MarkerScene& scene, sweep_guard_core::Duration hold) {
+bool isOfWarning(const MarkerScene& scene, const sweep_guard_core::WarningLimits& limits) {
   constexpr sweep_guard_core::Duration kDelay = std::chrono::milliseconds(100);  // of the newest pose
-  if (!scene.contact || scene.newest->end - scene.contact->end > hold + kDelay) return false;
+  if (!scene.contact || !limits.hold(scene.newest->end - scene.contact->end - kDelay)) return false;
   const auto& objects = scene.contact->objects;
   return std::any_of(objects.begin(), objects.end(), [&](const sweep_guard_core::SweptObject& object) {
     return object.workpiece->id == scene.warning.mesh_id && object.result.unintendedContact();

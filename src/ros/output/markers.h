@@ -33,8 +33,7 @@ struct MarkerScene {
 
 /// Returns whether the scene's contact is the one that the warning reports. It is not if it is older than what may be
 /// held, or of another workpiece: detectors may also disagree about a sweep that met nothing.
-/// @param hold  how long a contact is shown after its end, >= 0
-bool isOfWarning(const MarkerScene& scene, sweep_guard_core::Duration hold);
+bool isOfWarning(const MarkerScene& scene, const sweep_guard_core::WarningLimits& limits);
 
 /// Returns the namespaces of all markers, in the order of the documentation.
 const std::vector<std::string>& markerNamespaces();

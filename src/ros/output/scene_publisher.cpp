@@ -63,7 +63,7 @@ MarkerScene ScenePublisher::currentScene() const {
   scene.bodies = parameters->bodies;
   scene.namespaces = parameters->marker_namespaces;
   monitor_.warning(now(), scene.warning);
-  if (!isOfWarning(scene, parameters->limits.hold_time)) scene.contact.reset();
+  if (!isOfWarning(scene, parameters->limits)) scene.contact.reset();
   return scene;
 }
 

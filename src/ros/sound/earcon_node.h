@@ -41,8 +41,7 @@ class EarconNode {
 
   void hear(const sweep_guard::Warning& message);
   void sound();
-  void play(const sweep_guard_core::SoundCue& cue);
-  sweep_guard_core::SoundCue cue() const;
+  void play(const sweep_guard_core::HeardWarning& warning);
   void report(Status& status) const;
 
   // Members use only earlier members.
