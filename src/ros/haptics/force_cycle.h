@@ -5,12 +5,12 @@
 
 #include <string>
 
+#include "common/guarded_by.h"
 #include "ros/haptics/device_axes.h"
 #include "ros/haptics/haptics_parameters.h"
 #include "ros/haptics/tick_record.h"
 #include "ros/motion/guard_input.h"
 #include "ros/motion/tool_pose_input.h"
-#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 

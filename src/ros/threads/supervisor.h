@@ -6,10 +6,10 @@
 #include <functional>
 #include <thread>
 
+#include "common/guarded_by.h"
 #include "ros/process/log_throttle.h"
 #include "ros/threads/stall_timer.h"
 #include "ros/threads/thread_top.h"
-#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 
