@@ -45,9 +45,9 @@ double lackOf(const ConvexShape& shape, const ConvexHull& hull) {
     const double face = hull.solid ? nearestFace(hull, center, axis) : 0.0;
     return std::max(0.0, radius - std::min(radius, face));
   };
-  if (const auto cylinder = shape.asCylinder()) {
-    const Eigen::Vector3d middle = cylinder->X_TC * Eigen::Vector3d(0.0, 0.0, -0.5 * cylinder->length);
-    return shape.padding() + beyond(cylinder->radius, middle, cylinder->X_TC.linear().col(2)) + rest;
+  if (const auto* const cylinder = shape.asCylinder()) {
+    const Eigen::Vector3d middle = shape.X_TS() * Eigen::Vector3d(0.0, 0.0, -0.5 * cylinder->length);
+    return shape.padding() + beyond(cylinder->radius, middle, shape.X_TS().linear().col(2)) + rest;
   }
   if (!shape.asBox() && isBall(shape))
     return beyond(shape.padding(), shape.coreSupportPoint(Eigen::Vector3d::UnitX()), std::nullopt) + rest;
