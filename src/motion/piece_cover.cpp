@@ -125,7 +125,7 @@ PieceCover::Classified PieceCover::classify(const Cluster& cluster, const Center
   unsigned standing = 0;
   for (std::uint64_t left = allOf(cluster) & ~classified.nearer; left != 0; left &= left - 1) {
     const auto i = static_cast<size_t>(__builtin_ctzll(left));
-    const auto& [a, b, c] = corners.places;
+    const auto& [a, b, c] = corners;
     const unsigned behind = bits[a[i]] & bits[b[i]] & bits[c[i]] & covering;
     if (behind == 0) classified.not_nearer |= std::uint64_t{1} << i;
     if ((behind & standing) == 0) standing |= behind & (0U - behind);
