@@ -71,7 +71,7 @@ TEST_P(SelectDetectorTest, FindsTheTrianglesThatTheDrillMeets) {
 
 // Two records hold 8 words: the canary and one hit.
 TEST_P(SelectDetectorTest, FindsAllInABufferThatHoldsTwo) {
-  SelectDetector detector({/*cull=*/true, /*block=*/64, /*hit_records=*/2}, contexts());
+  SelectDetector detector({}, contexts(), /*hit_records=*/2);
   EXPECT_EQ(detector.detect(hull(), sweptDrill()).triangles, expected());
 }
 
