@@ -74,7 +74,6 @@ class OperatorNode {
   void run() {
     ros::Time::waitForValid();
     if (!start_.awaitWorkpiece()) return;
-    surface_.emplace(start_.mesh_W());
     if (wait_for_guard_ && !start_.awaitGuard()) return;
     if (!guard_.empty()) setTool(*sweep_guard_ros::loadParameters(ros::NodeHandle(guard_)).tool);
     const PoseStream motion = makePoses();
@@ -154,7 +153,7 @@ class OperatorNode {
   }
 
   std::vector<Eigen::Vector3d> holes_W() const {
-    std::vector<Eigen::Vector3d> holes_W = holesAround(*surface_, kHoleCircle, kHolesOnCircle);
+    std::vector<Eigen::Vector3d> holes_W = holesAround(start_.mesh_W(), kHoleCircle, kHolesOnCircle);
     const auto first = static_cast<size_t>(first_hole_) % holes_W.size();
     std::rotate(holes_W.begin(), holes_W.begin() + static_cast<std::ptrdiff_t>(first), holes_W.end());
     return holes_W;
@@ -179,16 +178,13 @@ class OperatorNode {
   }
 
   PoseStream playRecording() const {
-    Replay::Options options;
-    options.loop = loop_;
-    options.target_W = surface_->highestPoint() - kDepth * Eigen::Vector3d::UnitZ();
-    return replayed(recording_, options);
+    return replayed(recording_, loop_, highestPoint(start_.mesh_W()) - kDepth * Eigen::Vector3d::UnitZ());
   }
 
   // Returns a pose of the tip that points down.
   Eigen::Isometry3d aboveTheWorkpiece() const {
     const double clearance = kClearance + kRisePerWidth * radial_extent_;
-    return Eigen::Translation3d(surface_->highestPoint() + clearance * Eigen::Vector3d::UnitZ()) *
+    return Eigen::Translation3d(highestPoint(start_.mesh_W()) + clearance * Eigen::Vector3d::UnitZ()) *
            Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
   }
 
@@ -232,7 +228,6 @@ class OperatorNode {
   bool intend_;
   std::string guard_;  // the operator moves its tool; empty: a tool with the tip at the origin
   std::vector<StampedPose> recording_;
-  std::optional<TopSurface> surface_;
   Eigen::Vector3d p_TTip_ = Eigen::Vector3d::Zero();  // [m]; the motion is that of the tip
   double radial_extent_ = 0.0;                        // [m]
   ros::NodeHandle node_;

@@ -6,8 +6,12 @@
 
 #define EIGEN_MPL2_ONLY
 #include <Eigen/SparseCholesky>
+#endif
 
 namespace sweep_guard_simulation {
+
+#if EIGEN_VERSION_AT_LEAST(3, 4, 0)
+
 namespace {
 
 constexpr double kSingular = 1e-13;  // of the largest pivot
@@ -31,11 +35,7 @@ Eigen::MatrixX3d SparseSolver::solve(const Eigen::MatrixX3d& right) const { retu
 
 Eigen::VectorXd SparseSolver::solve(const Eigen::VectorXd& right) const { return factors_->cholesky.solve(right); }
 
-}  // namespace sweep_guard_simulation
-
 #else
-
-namespace sweep_guard_simulation {
 
 struct SparseSolver::Factors {};
 
@@ -47,11 +47,7 @@ Eigen::MatrixX3d SparseSolver::solve(const Eigen::MatrixX3d& right) const { retu
 
 Eigen::VectorXd SparseSolver::solve(const Eigen::VectorXd& right) const { return right; }
 
-}  // namespace sweep_guard_simulation
-
 #endif
-
-namespace sweep_guard_simulation {
 
 SparseSolver::~SparseSolver() = default;
 SparseSolver::SparseSolver(SparseSolver&&) noexcept = default;
