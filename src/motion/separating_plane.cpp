@@ -23,20 +23,11 @@ std::vector<ToolBall> prismAround(const ConvexShape& shape_T, const ConvexShape:
   return balls;
 }
 
-// The core of a sphere is its center.
-bool isPoint(const ConvexShape& shape) {
-  for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(i);
-    if (shape.coreSupportPoint(axis) != shape.coreSupportPoint(-axis)) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 std::vector<ToolBall> enclosingBalls(const ConvexShape& shape_T) {
   if (const auto* const cylinder = shape_T.asCylinder()) return prismAround(shape_T, *cylinder);
-  if (isPoint(shape_T)) return {{shape_T.coreSupportPoint(Eigen::Vector3d::UnitX()), shape_T.padding()}};
+  if (shape_T.isBall()) return {{shape_T.coreSupportPoint(Eigen::Vector3d::UnitX()), shape_T.padding()}};
   const TriangleMesh& mesh_T = shape_T.mesh_T();
   std::vector<ToolBall> balls;
   for (size_t i = 0; i < mesh_T.vertexCount(); ++i) {

@@ -132,6 +132,11 @@ class ConvexShape {
   /// Returns the body without padding if it is a box, else null.
   const Box* asBox() const { return std::get_if<Box>(&body_S_); }
 
+  /// Returns whether the body without padding is a point.
+  bool isBall() const {
+    return std::holds_alternative<Points>(body_S_) && std::get<Points>(body_S_).corners.size() == 1;
+  }
+
   Eigen::Isometry3d X_TS() const;  ///< pose of the frame of a cylinder or a box
 
   /// Returns the surface as made, without what padded() added. That of a round body is a polyhedron inside it.
