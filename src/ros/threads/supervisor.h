@@ -45,7 +45,7 @@ class Supervisor {
     Watched(Supervisor& supervisor, const ThreadTraits& thread) : top(supervisor, thread) {}
     ThreadTop top;
     StallTimer stall;
-    sweep_guard_core::Heartbeat::Reading heart{};  // newest, as the state
+    std::optional<std::uint64_t> steps;  // newest, as the state
     ThreadState state{};
   };
 
