@@ -55,7 +55,7 @@ class OperatorNode {
         motion_topic_(parameters.text("motion_topic", "")),
         input_(parameters.choice("input", motion_file_.empty() ? "scripted" : "recording",
                                  {"scripted", "recording", "marker", "joy"})),
-        limits_(readLimits(parameters)),
+        limits_(readLimits(parameters, "hand/", {})),
         joystick_(readJoystick(parameters)),
         acknowledge_button_(parameters.integer("joy/acknowledge_button", 0, -1, kMaxAxis)),
         rate_(parameters.number("rate", 100.0, {1.0, 10000.0})),
@@ -88,15 +88,6 @@ class OperatorNode {
   }
 
  private:
-  static GuidedTip::Limits readLimits(sweep_guard_ros::ParameterReader& parameters) {
-    GuidedTip::Limits limits;
-    limits.speed = parameters.number("hand/speed", limits.speed, {0.001, 5.0});
-    limits.acceleration = parameters.number("hand/acceleration", limits.acceleration, {0.01, 100.0});
-    limits.turn_rate = parameters.number("hand/turn_rate", limits.turn_rate, {0.01, 20.0});
-    limits.turn_acceleration = parameters.number("hand/turn_acceleration", limits.turn_acceleration, {0.1, 1000.0});
-    return limits;
-  }
-
   static Joystick::Options readJoystick(sweep_guard_ros::ParameterReader& parameters) {
     const auto axes = [&parameters](const std::string& key, const std::array<int, 3>& fallback) {
       const std::vector<int> read = parameters.integers(key, {fallback.begin(), fallback.end()}, -1, kMaxAxis);
@@ -181,11 +172,9 @@ class OperatorNode {
     return replayed(recording_, loop_, highestPoint(start_.mesh_W()) - kDepth * Eigen::Vector3d::UnitZ());
   }
 
-  // Returns a pose of the tip that points down.
   Eigen::Isometry3d aboveTheWorkpiece() const {
     const double clearance = kClearance + kRisePerWidth * radial_extent_;
-    return Eigen::Translation3d(highestPoint(start_.mesh_W()) + clearance * Eigen::Vector3d::UnitZ()) *
-           Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
+    return pointingDown(highestPoint(start_.mesh_W()) + clearance * Eigen::Vector3d::UnitZ());
   }
 
   bool perform(const PoseStream& motion) {

@@ -10,6 +10,13 @@
 
 namespace sweep_guard_simulation {
 
+struct SparseSolver::Factors {
+#if EIGEN_VERSION_AT_LEAST(3, 4, 0)
+  explicit Factors(const Eigen::SparseMatrix<double>& matrix) : cholesky(matrix) {}
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> cholesky;
+#endif
+};
+
 #if EIGEN_VERSION_AT_LEAST(3, 4, 0)
 
 namespace {
@@ -17,11 +24,6 @@ namespace {
 constexpr double kSingular = 1e-13;  // of the largest pivot
 
 }  // namespace
-
-struct SparseSolver::Factors {
-  explicit Factors(const Eigen::SparseMatrix<double>& matrix) : cholesky(matrix) {}
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> cholesky;
-};
 
 SparseSolver::SparseSolver(const Eigen::SparseMatrix<double>& matrix)
     : factors_(std::make_unique<const Factors>(matrix)) {
@@ -36,8 +38,6 @@ Eigen::MatrixX3d SparseSolver::solve(const Eigen::MatrixX3d& right) const { retu
 Eigen::VectorXd SparseSolver::solve(const Eigen::VectorXd& right) const { return factors_->cholesky.solve(right); }
 
 #else
-
-struct SparseSolver::Factors {};
 
 SparseSolver::SparseSolver(const Eigen::SparseMatrix<double>&) {
   throw sweep_guard_core::InvalidInput("an elastic workpiece needs a build with Eigen 3.4 or newer");
