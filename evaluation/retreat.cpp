@@ -1,11 +1,13 @@
 #include "evaluation/retreat.h"
 
 #include <algorithm>
+#include <array>
 
 #include "sweep_guard/motion/separating_plane.h"
 
 namespace sweep_guard_evaluation {
 
+using sweep_guard_core::PointHull;
 using sweep_guard_core::toSeconds;
 using sweep_guard_core::Twist;
 
@@ -17,11 +19,6 @@ constexpr double kNormalSpeed = 0.1;       // [m/s]
 constexpr double kMinRetreatSpeed = 0.02;  // [m/s] of a random retreat
 constexpr double kMinTurnRate = 0.1;       // [rad/s]
 constexpr double kShareOfMax = 0.6;        // of the robot's speed, at most
-
-struct Point {
-  Eigen::Vector3d p;
-  Eigen::Vector3d supportPoint(const Eigen::Vector3d& /*direction*/) const { return p; }
-};
 
 bool opens(const Twist& twist_W, const Eigen::Vector3d& normal, const Eigen::Vector3d& from_origin) {
   return normal.dot(twist_W.v_W + twist_W.w_W.cross(from_origin)) >= 0.0;
@@ -86,7 +83,8 @@ bool opensEveryGap(const LoopScene& scene, const Eigen::Isometry3d& X_MT, const 
     if (!opens(twist_W, nearest.normal, nearest.on_tool - origin_M)) return false;
     for (const auto& ball : enclosingBalls(scene.tool().pieces()[i].shape_T)) {
       const Eigen::Vector3d center_M = X_MT * ball.center_T;
-      const auto apart = separation(Point{center_M}, sweep_guard_core::PointHull(scene.corners_M()));
+      const PointHull center(std::array<Eigen::Vector3d, 1>{center_M});
+      const auto apart = separation(center, PointHull(scene.corners_M()));
       if (!opens(twist_W, apart.normal, center_M - origin_M)) return false;
     }
   }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "sweep_guard/common/mutex.h"
+#include "common/guarded_by.h"
 #include "sweep_guard/common/stamped_pose.h"
 #include "sweep_guard/detection/detector.h"
 #include "sweep_guard/guard/workpiece.h"

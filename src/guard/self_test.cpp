@@ -45,7 +45,7 @@ TriangleMesh GoldenQuery::mesh_M() const {
     mesh.push_back({first, first + 1, first + 2});
     for (const Eigen::Vector3d& corner : triangle.corners) vertices_M.push_back(X_MN * corner.cwiseProduct(unit));
   }
-  return {vertices_M, std::move(mesh), SurfaceKind::kSheet};
+  return {vertices_M, std::move(mesh), /*is_sheet=*/true};
 }
 
 // A triangle that points at a place from outside.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sweep_guard/common/sample_buffer.h"
+#include "sweep_guard/kinematics/kinematic_tree.h"
 #include "sweep_guard/prediction/jump.h"
 
 namespace sweep_guard_core {
@@ -19,13 +20,7 @@ struct ToolState {
 /// Finds jumps of the tool in the fixed frame, and of its joints. One thread.
 class ToolJumps {
  public:
-  struct Joint {
-    std::string name;
-    bool turns = true;      ///< its positions are angles; otherwise lengths
-    double velocity = 0.0;  ///< largest by the robot description [rad/s or m/s]; 0: it does not say
-  };
-
-  ToolJumps(std::string tool_frame, std::string fixed_frame, std::vector<Joint> joints)
+  ToolJumps(std::string tool_frame, std::string fixed_frame, std::vector<JointVariable> joints)
       : tool_frame_(std::move(tool_frame)), fixed_frame_(std::move(fixed_frame)), joints_(std::move(joints)) {}
 
   /// Adds the newest state; stamps do not decrease.
@@ -46,7 +41,7 @@ class ToolJumps {
 
   const std::string tool_frame_;
   const std::string fixed_frame_;
-  const std::vector<Joint> joints_;
+  const std::vector<JointVariable> joints_;
   SampleBuffer<ToolState> states_;  // the first is the newest one that is older by 20 ms, if there is one
 };
 

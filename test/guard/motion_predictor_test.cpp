@@ -80,8 +80,8 @@ PredictorOptions optionsOf(const std::string& name) {
   return options;
 }
 
-std::vector<PredictableJoint> jointsOf(const KinematicTree& tree) {
-  std::vector<PredictableJoint> joints(tree.variables().size());
+std::vector<JointVariable> jointsOf(const KinematicTree& tree) {
+  std::vector<JointVariable> joints(tree.variables().size());
   for (const TreeLink& link : tree.links()) {
     const bool mimics = link.joint != tree.variables()[link.variable].name;
     if (link.type == JointType::kPrismatic && !mimics) joints[link.variable].turns = false;

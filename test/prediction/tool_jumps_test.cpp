@@ -26,7 +26,10 @@ class ToolJumpsTest : public testing::Test {
   }
 
   ToolJumps tool_{"drill", "world", {}};
-  ToolJumps arm_{"hand", "world", {{"elbow", /*turns=*/true, /*velocity=*/2.0}, {"slide", /*turns=*/false, 0.0}}};
+  ToolJumps arm_{"hand",
+                 "world",
+                 {{"elbow", -kUnlimited, kUnlimited, false, /*velocity=*/2.0},
+                  {"slide", -kUnlimited, kUnlimited, false, 0.0, /*turns=*/false}}};
 };
 
 TEST_F(ToolJumpsTest, AToolThatIsElsewhereAtTheNextPoseHasJumped) {

@@ -197,7 +197,7 @@ TEST_F(MeshFileTest, FollowsASymbolicLinkOnRequest) {
   const fs::path link = folder_.path() / "link.obj";
   fs::create_symlink(folder_.write("blob", tetrahedronObj()), link);
   EXPECT_TRUE(has(refusal([&] { readMesh(link); }), "cannot be opened"));
-  expectUnitTetrahedron(readMesh(link, SymbolicLinks::kFollow));
+  expectUnitTetrahedron(readMesh(link, /*follow_link=*/true));
 }
 
 TEST_F(MeshFileTest, RefusesHugeAndSpecialFiles) {

@@ -101,14 +101,14 @@ class FrameMotionStore {
   std::optional<Eigen::Isometry3d> newest(const std::string& frame) const;
 
  private:
-  FrameMotion motionOf(const std::string& frame) const REQUIRES(mutex_);
-  void replace(const std::string& frame, FrameMotion motion) REQUIRES(mutex_);
+  FrameMotion motionOf(const std::string& frame) const SWEEP_GUARD_REQUIRES(mutex_);
+  void replace(const std::string& frame, FrameMotion motion) SWEEP_GUARD_REQUIRES(mutex_);
 
   mutable Mutex mutex_;
-  std::set<std::string> frames_ GUARDED_BY(mutex_);
-  std::shared_ptr<const FrameMotions> motions_ GUARDED_BY(mutex_);
-  std::set<std::string> added_ GUARDED_BY(mutex_);              // frames of add()
-  std::map<std::string, Time> needed_from_ GUARDED_BY(mutex_);  // by frame, as forgetBefore()
+  std::set<std::string> frames_ SWEEP_GUARD_GUARDED_BY(mutex_);
+  std::shared_ptr<const FrameMotions> motions_ SWEEP_GUARD_GUARDED_BY(mutex_);
+  std::set<std::string> added_ SWEEP_GUARD_GUARDED_BY(mutex_);              // frames of add()
+  std::map<std::string, Time> needed_from_ SWEEP_GUARD_GUARDED_BY(mutex_);  // by frame, as forgetBefore()
 };
 
 }  // namespace sweep_guard_core

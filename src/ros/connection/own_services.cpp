@@ -1,6 +1,6 @@
 #include "ros/connection/own_services.h"
 
-#include "sweep_guard/common/mutex.h"
+#include "common/guarded_by.h"
 
 namespace sweep_guard_ros {
 namespace {

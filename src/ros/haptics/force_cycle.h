@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
+#include "common/guarded_by.h"
 #include "ros/haptics/haptics_parameters.h"
 #include "ros/haptics/tick_record.h"
-#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 

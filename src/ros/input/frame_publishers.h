@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "sweep_guard/common/mutex.h"
+#include "common/guarded_by.h"
 #include "sweep_guard/common/sample_buffer.h"
 #include "sweep_guard/common/time.h"
 

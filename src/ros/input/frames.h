@@ -12,6 +12,7 @@
 #include <set>
 #include <string>
 
+#include "common/guarded_by.h"
 #include "ros/connection/bounded.h"
 #include "ros/input/frame_publishers.h"
 #include "ros/input/frame_tree.h"
@@ -20,7 +21,6 @@
 #include "ros/threads/gate.h"
 #include "ros/threads/queue_thread.h"
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/common/time.h"
 
 namespace sweep_guard_ros {

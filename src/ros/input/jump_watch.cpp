@@ -5,13 +5,9 @@
 namespace sweep_guard_ros {
 namespace {
 
-std::vector<sweep_guard_core::ToolJumps::Joint> jointsOf(const Parameters& parameters) {
-  std::vector<sweep_guard_core::ToolJumps::Joint> joints;
-  if (!parameters.articulated) return joints;
-  const sweep_guard_core::KinematicTree& tree = parameters.robot->robot.tree;
-  for (const sweep_guard_core::JointVariable& variable : tree.variables())
-    joints.push_back({variable.name, tree.turns(joints.size()), variable.velocity});
-  return joints;
+std::vector<sweep_guard_core::JointVariable> jointsOf(const Parameters& parameters) {
+  if (!parameters.articulated) return {};
+  return parameters.robot->robot.tree.variables();
 }
 
 }  // namespace

@@ -146,8 +146,7 @@ geometry_msgs::Pose toMsg(const Eigen::Isometry3d& pose) {
   return msg;
 }
 
-sweep_guard_core::TriangleMesh fromMsg(const shape_msgs::Mesh& mesh, size_t max_triangles,
-                                       sweep_guard_core::SurfaceKind surface) {
+sweep_guard_core::TriangleMesh fromMsg(const shape_msgs::Mesh& mesh, size_t max_triangles, bool is_sheet) {
   if (mesh.triangles.size() > max_triangles) {
     throw InvalidInput(std::to_string(mesh.triangles.size()) + " triangles exceed limits/max_triangles, " +
                        std::to_string(max_triangles));
@@ -164,7 +163,7 @@ sweep_guard_core::TriangleMesh fromMsg(const shape_msgs::Mesh& mesh, size_t max_
     const auto& index = triangle.vertex_indices;
     triangles.push_back({index[0], index[1], index[2]});
   }
-  return sweep_guard_core::TriangleMesh(vertices, std::move(triangles), surface);
+  return sweep_guard_core::TriangleMesh(vertices, std::move(triangles), is_sheet);
 }
 
 sweep_guard::PredictedPose toMsg(const sweep_guard_core::PredictedPose& pose, sweep_guard_core::Duration age) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "common/guarded_by.h"
 #include "monitor/input_record.h"
 #include "ros/motion/command_frames.h"
 #include "ros/motion/command_port.h"
@@ -15,7 +16,6 @@
 #include "ros/motion/status_publisher.h"
 #include "ros/motion/tool_pose_input.h"
 #include "ros/threads/queue_thread.h"
-#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/motion/command_period.h"
 #include "sweep_guard/motion/motion_guard.h"
 

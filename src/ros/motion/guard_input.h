@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "common/guarded_by.h"
 #include "common/pool.h"
 #include "monitor/input_record.h"
 #include "ros/connection/bounded.h"
@@ -13,7 +14,6 @@
 #include "ros/motion/pose_source.h"
 #include "ros/process/log_throttle.h"
 #include "ros/threads/queue_thread.h"
-#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/motion/motion_guard.h"
 
 namespace sweep_guard_ros {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "common/guarded_by.h"
 #include "ros/connection/xml_rpc_call.h"
 #include "ros/threads/timer_thread.h"
-#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 

@@ -8,13 +8,13 @@
 #include <optional>
 #include <string>
 
+#include "common/guarded_by.h"
 #include "ros/connection/bounded.h"
 #include "ros/connection/master_watch.h"
 #include "ros/motion/output_watch.h"
 #include "ros/process/log_throttle.h"
 #include "ros/threads/queue_thread.h"
 #include "ros/threads/timer_thread.h"
-#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/motion/command_period.h"
 #include "sweep_guard/ros/parameters/parameter_reader.h"
 

@@ -6,7 +6,7 @@
 #include <condition_variable>
 #include <memory>
 
-#include "sweep_guard/common/mutex.h"
+#include "common/guarded_by.h"
 
 namespace sweep_guard_ros {
 namespace {

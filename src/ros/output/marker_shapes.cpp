@@ -33,7 +33,8 @@ void addShaded(Marker& list, const sweep_guard_core::ConvexShape& shape_T, const
 
 int markersOf(const sweep_guard_core::Tool& body) {
   int cylinders = 0;
-  for (const sweep_guard_core::ConvexPiece& piece : body.pieces()) cylinders += piece.shape_T.asCylinder() ? 1 : 0;
+  for (const sweep_guard_core::ConvexPiece& piece : body.pieces())
+    cylinders += piece.shape_T.asCylinder() != nullptr ? 1 : 0;
   return cylinders + (static_cast<size_t>(cylinders) < body.pieces().size() ? 1 : 0);
 }
 
@@ -44,9 +45,9 @@ void addBody(visualization_msgs::MarkerArray& array, const ToolDrawing& drawing,
   others.pose = toMsg(X_WB);
   others.color = drawing.color;
   for (const sweep_guard_core::ConvexPiece& piece : body.pieces()) {
-    if (const auto cylinder = piece.shape_T.asCylinder()) {
+    if (const auto* const cylinder = piece.shape_T.asCylinder()) {
       Marker drawn = marker(drawing.ns, id++, Marker::CYLINDER, drawing.frame, drawing.stamp);
-      drawn.pose = toMsg(X_WB * cylinder->X_TC * Eigen::Translation3d(0.0, 0.0, -0.5 * cylinder->length));
+      drawn.pose = toMsg(X_WB * piece.shape_T.X_TS() * Eigen::Translation3d(0.0, 0.0, -0.5 * cylinder->length));
       drawn.scale.x = drawn.scale.y = 2.0 * cylinder->radius;
       drawn.scale.z = cylinder->length;
       drawn.color = drawing.color;

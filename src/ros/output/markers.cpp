@@ -115,7 +115,7 @@ void addTrail(visualization_msgs::MarkerArray& array, const sweep_guard_core::Tr
   strip.color = unlessUnknown(level, color(0.9, 0.9, 0.9, 0.8));
   for (const sweep_guard_core::Trail::Point& past : trail.points()) {
     const double age = sweep_guard_core::toSeconds(newest - past.stamp);
-    fade(strip, past.p_W, strip.color, span > 0.0 ? 1.0 - age / span : 1.0);
+    fade(strip, past.value, strip.color, span > 0.0 ? 1.0 - age / span : 1.0);
   }
   array.markers.push_back(std::move(strip));
 }

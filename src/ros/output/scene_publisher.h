@@ -5,10 +5,10 @@
 
 #include <memory>
 
+#include "common/guarded_by.h"
 #include "ros/output/markers.h"
 #include "ros/output/view_publisher.h"
 #include "ros/parameters/parameters.h"
-#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "common/guarded_by.h"
 #include "ros/tool/tool_model.h"
-#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/guard/guard.h"
 #include "sweep_guard/interaction/interaction_finder.h"
 #include "sweep_guard/monitor/warning.h"

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "common/guarded_by.h"
 #include "guard/intention_store.h"
 #include "guard/workpiece_store.h"
 #include "ros/connection/bounded.h"
@@ -17,7 +18,6 @@
 #include "ros/process/log_throttle.h"
 #include "ros/service/limited_calls.h"
 #include "ros/service/service_threads.h"
-#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 

@@ -58,8 +58,8 @@ std::string formatOf(const path& file) {
 }
 
 // O_NONBLOCK: opening a pipe must not wait.
-Descriptor openMesh(const path& file, SymbolicLinks links) {
-  const int follow = links == SymbolicLinks::kFollow ? 0 : O_NOFOLLOW;
+Descriptor openMesh(const path& file, bool follow_link) {
+  const int follow = follow_link ? 0 : O_NOFOLLOW;
   Descriptor opened(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | follow));
   struct stat status {};
   if (opened.get() < 0 || fstat(opened.get(), &status) != 0) {
@@ -165,9 +165,9 @@ std::string failureText(int status, const std::string& answer) {
 
 }  // namespace
 
-MeshSurface readMesh(const path& file, SymbolicLinks links) {
+MeshSurface readMesh(const path& file, bool follow_link) {
   const std::string format = formatOf(file);
-  const Descriptor opened = openMesh(file, links);
+  const Descriptor opened = openMesh(file, follow_link);
   Reader reader(readerProgram(), format, opened);
   const std::optional<std::string> answer = reader.answer();
   const std::string remedy = "; export the mesh again";

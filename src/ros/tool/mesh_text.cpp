@@ -128,30 +128,28 @@ void requireCount(const XMLElement& faces) {
   }
 }
 
-class DaeCheck : public tinyxml2::XMLVisitor {
- public:
-  using XMLVisitor::VisitEnter;
-  bool VisitEnter(const XMLElement& element, const tinyxml2::XMLAttribute* /*first*/) override {
-    const string_view name = element.Name();
-    if (name == "unit") requireUnit(element);
-    if (name == "p") requireIndices(element);
+// Ends: tinyxml2 limits the depth of nested elements.
+void requireReadableBelow(const tinyxml2::XMLNode& parent) {
+  for (const XMLElement* element = parent.FirstChildElement(); element; element = element->NextSiblingElement()) {
+    const string_view name = element->Name();
+    if (name == "unit") requireUnit(*element);
+    if (name == "p") requireIndices(*element);
     if (isOneOf({"triangles", "polylist", "polygons", "lines", "linestrips", "trifans", "tristrips"}, name)) {
-      requireCount(element);
+      requireCount(*element);
     }
     if (isOneOf({"brep", "convex_mesh", "ph", "spline"}, name)) {
       throw std::runtime_error("<" + std::string(name) + "> is not supported");
     }
-    return true;
+    requireReadableBelow(*element);
   }
-};
+}
 
 void requireReadableDae(const std::string& text) {
   tinyxml2::XMLDocument document;
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     throw std::runtime_error(std::string("not XML: ") + document.ErrorStr());
   }
-  DaeCheck check;
-  document.Accept(&check);
+  requireReadableBelow(document);
 }
 
 }  // namespace

@@ -195,9 +195,9 @@ size_t variableNamed(const KinematicTree& tree, const std::string& joint) {
 
 void checkLimits(const KinematicTree& tree, const std::vector<double>& positions, const std::string& where) {
   for (size_t i = 0; i < positions.size(); ++i) {
-    const auto& [name, lower, upper, continuous, velocity] = tree.variables()[i];
-    if (positions[i] >= lower && positions[i] <= upper) continue;  // false for NaN
-    throw InvalidInput(where + name + " is beyond the joint's limits, " + shown(lower, upper));
+    const JointVariable& joint = tree.variables()[i];
+    if (positions[i] >= joint.lower && positions[i] <= joint.upper) continue;  // false for NaN
+    throw InvalidInput(where + joint.name + " is beyond the joint's limits, " + shown(joint.lower, joint.upper));
   }
 }
 

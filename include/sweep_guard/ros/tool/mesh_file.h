@@ -21,17 +21,15 @@ using MeshSurface = sweep_guard_core::TriangleSurface;
 /// @throws sweep_guard_core::InvalidInput naming the URI (unless it has a null character) and what is wrong
 std::filesystem::path locateMesh(const std::string& uri, const std::vector<std::string>& roots);
 
-/// Selects whether readMesh() follows a symbolic link at the end of the path; links among its folders are followed in
-/// any case. Use kFollow for paths from the user only.
-enum class SymbolicLinks { kRefuse, kFollow };
-
 /// Reads a regular STL, OBJ or DAE file, told apart by its extension (upper or lower case), of at most 32 MiB, a
 /// million triangles and three million vertices. The program mesh_reader next to the nodes reads it in a separate
 /// process, so that a file on which it crashes is refused. A file is refused, too, if it cannot be read completely, if
 /// no triangle has three different corners, or if it takes more than 1 GiB of memory, 10 s of processor time or 30 s in
 /// all. Blocks the calling thread meanwhile.
+/// @param follow_link  follows a symbolic link at the end of the path, not only those among its folders: for paths from the
+///                     user only
 /// @throws sweep_guard_core::InvalidInput naming the file and what is wrong
 /// @throws sweep_guard_core::DeviceError if mesh_reader cannot be run
-MeshSurface readMesh(const std::filesystem::path& path, SymbolicLinks links = SymbolicLinks::kRefuse);
+MeshSurface readMesh(const std::filesystem::path& path, bool follow_link = false);
 
 }  // namespace sweep_guard_ros
