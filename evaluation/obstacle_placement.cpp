@@ -98,11 +98,11 @@ std::optional<ObstaclePlacement> tryMiss(const RecordedMotion& motion, const Con
 
 }  // namespace
 
-std::vector<ObstaclePlacement> placeObstacles(const RecordedMotion& motion, const ConvexShape& tool,
-                                              const ObstaclePlacementOptions& options) {
-  Random random(options.seed);
+std::vector<ObstaclePlacement> placeObstacles(const RecordedMotion& motion, const ConvexShape& tool, size_t count,
+                                              std::uint64_t seed) {
+  Random random(seed);
   std::vector<ObstaclePlacement> placements;
-  for (size_t tries = kTriesForPlacement * options.count; placements.size() < options.count && tries > 0; --tries) {
+  for (size_t tries = kTriesForPlacement * count; placements.size() < count && tries > 0; --tries) {
     const bool to_contact = placements.size() % 2 == 0;
     const std::optional<ObstaclePlacement> placement =
         to_contact ? tryContact(motion, tool, random) : tryMiss(motion, tool, random);
