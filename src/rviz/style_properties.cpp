@@ -13,30 +13,26 @@ ElementStyle StyleProperties::ElementProperties::style() const {
 StyleProperties::StyleProperties(rviz::Property& parent, const std::function<void()>& changed)
     : parent_(parent),
       changed_(changed),
-      surface_(add({"Workpiece", "The deforming surfaces.", {214, 205, 188}, 1.0F})),
-      touched_(add({"Touched", "Triangles that the tool touches.", {235, 20, 20}, 1.0F})),
-      reflex_(add({"Reflex", "Triangles that the tool will touch within the reflex interval.", {255, 70, 50}, 0.9F})),
-      considered_(add({"Considered", "Triangles that the tool will touch later.", {255, 176, 0}, 0.9F})),
-      intended_(add({"Intended", "Triangles that the tool is meant to touch.", {40, 170, 70}, 0.5F})),
-      allowed_(add({"Allowed", "Triangles that links touch which may (tool/allowed).", {100, 140, 165}, 0.6F})),
-      measured_(add(
-          {"Measured sweep", "Swept boxes with their clipping planes, up to the newest pose.", {0, 205, 230}, 0.2F})),
-      predicted_(add({"Predicted sweeps",
-                      "Swept boxes with their clipping planes along the predicted path.",
-                      {140, 190, 255},
-                      0.03F})),
-      tool_(add({"Tool", "The tool at its newest measured pose.", {90, 128, 230}, 1.0F})),
-      ghosts_(add({"Ghosts", "The tool at predicted poses, fading with time.", {115, 165, 255}, 0.35F})),
-      path_(add({"Path", "Path of the tip, measured (the last 2 s) and predicted.", {235, 235, 235}, 0.9F})),
-      contacts_(add({"Contacts", "First contact point of each triangle.", {255, 240, 90}, 1.0F})),
-      normals_(add({"Normals", "Contact normals, pointing out of the workpiece.", {255, 240, 90}, 1.0F})),
-      depths_(add({"Depths", "Contact depths, into the workpiece; the largest also as text.", {235, 20, 20}, 1.0F})),
+      surface_(add("Workpiece", "The deforming surfaces.", {214, 205, 188}, 1.0F)),
+      touched_(add("Touched", "Triangles that the tool touches.", {235, 20, 20}, 1.0F)),
+      reflex_(add("Reflex", "Triangles that the tool will touch within the reflex interval.", {255, 70, 50}, 0.9F)),
+      considered_(add("Considered", "Triangles that the tool will touch later.", {255, 176, 0}, 0.9F)),
+      intended_(add("Intended", "Triangles that the tool is meant to touch.", {40, 170, 70}, 0.5F)),
+      allowed_(add("Allowed", "Triangles that links touch which may (tool/allowed).", {100, 140, 165}, 0.6F)),
+      measured_(
+          add("Measured sweep", "Swept boxes with their clipping planes, up to the newest pose.", {0, 205, 230}, 0.2F)),
+      predicted_(add("Predicted sweeps", "Swept boxes with their clipping planes along the predicted path.",
+                     {140, 190, 255}, 0.03F)),
+      tool_(add("Tool", "The tool at its newest measured pose.", {90, 128, 230}, 1.0F)),
+      ghosts_(add("Ghosts", "The tool at predicted poses, fading with time.", {115, 165, 255}, 0.35F)),
+      path_(add("Path", "Path of the tip, measured (the last 2 s) and predicted.", {235, 235, 235}, 0.9F)),
+      contacts_(add("Contacts", "First contact point of each triangle.", {255, 240, 90}, 1.0F)),
+      normals_(add("Normals", "Contact normals, pointing out of the workpiece.", {255, 240, 90}, 1.0F)),
+      depths_(add("Depths", "Contact depths, into the workpiece; the largest also as text.", {235, 20, 20}, 1.0F)),
       force_(add(
-          {"Force",
-           "Force of a workpiece on the tool, with volume and depth as text; the guard computes it while this is on.",
-           {190, 90, 255},
-           1.0F,
-           false})) {
+          "Force",
+          "Force of a workpiece on the tool, with volume and depth as text; the guard computes it while this is on.",
+          {190, 90, 255}, 1.0F, false)) {
   max_edged_ = new rviz::IntProperty("Edges Up To", 5000,
                                      "Edges are drawn for surfaces with at most this many triangles; lines are slow.",
                                      surface_.shown);
@@ -72,11 +68,12 @@ StyleProperties::StyleProperties(rviz::Property& parent, const std::function<voi
   }
 }
 
-StyleProperties::ElementProperties StyleProperties::add(const Default& element) {
+StyleProperties::ElementProperties StyleProperties::add(const char* name, const char* description, const QColor& color,
+                                                        float alpha, bool shown) {
   ElementProperties properties{};
-  properties.shown = new rviz::BoolProperty(element.name, element.shown, element.description, &parent_);
-  properties.color = new rviz::ColorProperty("Color", element.color, "", properties.shown);
-  properties.alpha = new rviz::FloatProperty("Alpha", element.alpha, "0 is transparent, 1 opaque.", properties.shown);
+  properties.shown = new rviz::BoolProperty(name, shown, description, &parent_);
+  properties.color = new rviz::ColorProperty("Color", color, "", properties.shown);
+  properties.alpha = new rviz::FloatProperty("Alpha", alpha, "0 is transparent, 1 opaque.", properties.shown);
   properties.alpha->setMin(0.0F);
   properties.alpha->setMax(1.0F);
   QObject::connect(properties.shown, &rviz::Property::changed, &parent_, changed_);

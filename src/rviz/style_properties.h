@@ -30,14 +30,7 @@ class StyleProperties {
     ElementStyle style() const;
   };
 
-  struct Default {
-    const char* name;
-    const char* description;
-    QColor color;
-    float alpha;
-    bool shown = true;
-  };
-  ElementProperties add(const Default& element);
+  ElementProperties add(const char* name, const char* description, const QColor& color, float alpha, bool shown = true);
 
   rviz::Property& parent_;
   std::function<void()> changed_;
