@@ -1,7 +1,6 @@
 #include "ros/service/check_sweep.h"
 
 #include <algorithm>
-#include <optional>
 #include <set>
 #include <tuple>
 
@@ -17,11 +16,6 @@ using sweep_guard_core::PathResult;
 
 constexpr size_t kMaxPoses = 1024;
 
-struct PathContact {
-  size_t segment;
-  std::optional<double> time_of_impact;  // in the segment
-};
-
 void checkPathOf(const CheckSweep::Request& request) {
   if (request.path.empty()) throw InvalidInput("path is empty: send at least one pose");
   if (request.path.size() > kMaxPoses) {
@@ -35,12 +29,12 @@ std::set<std::string> framesOf(const CheckSweep::Request& request) {
   return frames;
 }
 
-PathContact earlier(const std::optional<PathContact>& a, const PathContact& b) {
-  return a && std::tie(a->segment, a->time_of_impact) < std::tie(b.segment, b.time_of_impact) ? *a : b;
+bool isEarlier(const PathResult& a, const PathResult& b) {
+  return std::tie(a.first_contact, a.time_of_impact) < std::tie(b.first_contact, b.time_of_impact);
 }
 
 void fill(CheckSweep::Response& response, const PathQuestion& question, const std::vector<PathResult>& results) {
-  std::optional<PathContact> first;
+  const PathResult* first = nullptr;
   for (size_t i = 0; i < results.size(); ++i) {
     const PathResult& result = results[i];
     response.margin = std::max(response.margin, result.all.margin);
@@ -48,11 +42,11 @@ void fill(CheckSweep::Response& response, const PathQuestion& question, const st
       response.objects.push_back(toMsg(*question.paths[i].workpiece, result.all, *question.parameters->tool));
     if (!result.all.allowed.triangles.empty())
       response.allowed.push_back(allowedMsg(*question.paths[i].workpiece, result.all, *question.parameters->tool));
-    if (result.first_contact) first = earlier(first, {*result.first_contact, result.time_of_impact});
+    if (result.first_contact && (first == nullptr || isEarlier(result, *first))) first = &result;
   }
-  response.collision = first.has_value();
-  if (!first) return;
-  response.segment = static_cast<std::uint32_t>(first->segment);
+  response.collision = first != nullptr;
+  if (!response.collision) return;
+  response.segment = static_cast<std::uint32_t>(*first->first_contact);
   if (first->time_of_impact) response.time_of_impact = *first->time_of_impact;
 }
 
@@ -69,7 +63,7 @@ CheckSweepService::CheckSweepService(const ros::NodeHandle& private_node, Servic
 void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Response& response) {
   checkPathOf(request);
   const auto question =
-      tests_.question({request.volume, request.detector, request.margin, request.fine != 0}, calls_.arrival());
+      tests_.question(request.volume, request.detector, request.margin, request.fine != 0, calls_.arrival());
   // Before the snapshot is taken: what is accepted later does not better it.
   const std::string doubts_before = tests_.meshProblems(request.mesh_ids);
   for (const auto& workpiece : tests_.selected(*question, request.mesh_ids)) {

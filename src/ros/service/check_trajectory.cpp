@@ -144,7 +144,7 @@ CheckTrajectoryService::CheckTrajectoryService(const ros::NodeHandle& private_no
 
 void CheckTrajectoryService::check(const CheckTrajectory::Request& request, CheckTrajectory::Response& response) {
   const auto question =
-      tests_.question({request.volume, request.detector, request.margin, request.fine != 0}, calls_.arrival());
+      tests_.question(request.volume, request.detector, request.margin, request.fine != 0, calls_.arrival());
   const RobotModel& model = robotOf(*question->parameters);
   const std::vector<RobotState> states = statesOf(request.trajectory, model);
   // Before the snapshot is taken: what is accepted later does not better it.
