@@ -59,9 +59,9 @@ void addGhosts(visualization_msgs::MarkerArray& array, const MarkerScene& scene,
     const std::vector<Eigen::Isometry3d> X_WB = bodiesAt(*scene.prediction, static_cast<size_t>(pose - path.begin()));
     if (!drawn.empty() && !haveMoved(*scene.bodies, drawn, X_WB)) continue;
     drawn = X_WB;
-    const std_msgs::ColorRGBA fading = color(0.45, 0.65, 1.0, 0.5 * (kGhosts - i) / kGhosts);
-    const std_msgs::ColorRGBA shown = unlessUnknown(scene.warning.level, fading);
-    addTool(array, {"predicted_tool", i, fixed_frame, scene.prediction->stamp, shown}, *scene.bodies, X_WB);
+    Marker ghost = marker("predicted_tool", i, Marker::CYLINDER, fixed_frame, scene.prediction->stamp);
+    ghost.color = unlessUnknown(scene.warning.level, color(0.45, 0.65, 1.0, 0.5 * (kGhosts - i) / kGhosts));
+    addTool(array, ghost, *scene.bodies, X_WB);
   }
 }
 
@@ -220,8 +220,9 @@ bool isOfWarning(const MarkerScene& scene, sweep_guard_core::Duration hold) {
 void Markers::addMeasured(visualization_msgs::MarkerArray& array, const MarkerScene& scene) const {
   const WarningLevel level = scene.warning.level;
   const sweep_guard_core::Time stamp = scene.newest->end;
-  addTool(array, {"tool", 0, fixed_frame_, stamp, unlessUnknown(level, color(0.35, 0.5, 0.9, 0.8))}, *scene.bodies,
-          bodyPoses(scene));
+  Marker tool = marker("tool", 0, Marker::CYLINDER, fixed_frame_, stamp);
+  tool.color = unlessUnknown(level, color(0.35, 0.5, 0.9, 0.8));
+  addTool(array, tool, *scene.bodies, bodyPoses(scene));
 
   Marker text = marker("warning_text", 0, Marker::TEXT_VIEW_FACING, fixed_frame_, stamp);
   text.pose = toMsg(scene.X_WT * Eigen::Translation3d(textPosition(*scene.tool)));
