@@ -29,7 +29,7 @@ std::set<std::string> framesOf(const CheckSweep::Request& request) {
   return frames;
 }
 
-bool isEarlier(const PathResult& a, const PathResult& b) {
+bool meetsEarlier(const PathResult& a, const PathResult& b) {
   return std::tie(a.first_contact, a.time_of_impact) < std::tie(b.first_contact, b.time_of_impact);
 }
 
@@ -42,7 +42,7 @@ void fill(CheckSweep::Response& response, const PathQuestion& question, const st
       response.objects.push_back(toMsg(*question.paths[i].workpiece, result.all, *question.parameters->tool));
     if (!result.all.allowed.triangles.empty())
       response.allowed.push_back(allowedMsg(*question.paths[i].workpiece, result.all, *question.parameters->tool));
-    if (result.first_contact && (first == nullptr || isEarlier(result, *first))) first = &result;
+    if (result.first_contact && (first == nullptr || meetsEarlier(result, *first))) first = &result;
   }
   response.collision = first != nullptr;
   if (!response.collision) return;
