@@ -1,6 +1,7 @@
 #include "evaluation/retreat.h"
 
 #include <algorithm>
+#include <array>
 
 #include "sweep_guard/motion/separating_plane.h"
 
