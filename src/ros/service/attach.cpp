@@ -55,24 +55,16 @@ AttachService::AttachService(const ros::NodeHandle& private_node, ServiceThreads
     : dependencies_(dependencies),
       tool_(std::move(tool)),
       calls_(threads.lasting, threads.refusals),
-      server_(calls_.advertise<Event>(
-          private_node, "attach", kMaxRequest, [this](Event& event) { return onCall(event); },
-          [](const std::string& reason, sweep_guard::Attach::Response& response) {
-            response.message = reason;
-            return true;
-          })) {}
+      server_(calls_.advertise<Event>(private_node, "attach", kMaxRequest,
+                                      [this](Event& event) { return onCall(event); })) {}
 
-// Answers errors by a message: a failed ROS call gives the caller none.
 bool AttachService::onCall(Event& event) {
   const sweep_guard::Attach::Request& request = event.getRequest();
   sweep_guard::Attach::Response& response = event.getResponse();
-  try {
+  answerWith(response, [&] {
     if (!sweep_guard_core::isName(request.mesh_id)) throw InvalidInput("mesh_id is no name");
-    response.message = request.attach != 0 ? attach(request.mesh_id, request.link) : detach(request.mesh_id);
-    response.success = 1;
-  } catch (const std::exception& error) {
-    response.message = error.what();
-  }
+    return request.attach != 0 ? attach(request.mesh_id, request.link) : detach(request.mesh_id);
+  });
   ROS_INFO("~attach called by %s: %s", printable(event.getCallerName()).c_str(), response.message.c_str());
   return true;
 }
