@@ -24,8 +24,8 @@ Outputs::Outputs(const ros::NodeHandle& node, const ros::NodeHandle& private_nod
       marker_timer_(
           reports_.every(markerPeriod(state.parameters.initial()), [&state] { state.scene.publishMarkers(); })),
       path_tests_({state.parameters, state.frames, state.workpieces, state.monitor, &state.frame_motions}),
-      check_sweep_(private_node, service_threads_, path_tests_),
-      check_trajectory_(private_node, service_threads_, path_tests_),
+      check_sweep_(private_node, "check_sweep", service_threads_, path_tests_, checkSweep),
+      check_trajectory_(private_node, "check_trajectory", service_threads_, path_tests_, checkTrajectory),
       predict_(private_node, service_threads_, state.parameters, state.workpieces,
                [&guard](sweep_guard_core::Duration horizon) { return guard.thread().predictMotion(horizon); }),
       controls_(private_node, state.parameters, state.monitor, state.workpieces, service_threads_,

@@ -50,36 +50,8 @@ void fill(CheckSweep::Response& response, const PathQuestion& question, const st
   if (first->time_of_impact) response.time_of_impact = *first->time_of_impact;
 }
 
-}  // namespace
-
-CheckSweepService::CheckSweepService(const ros::NodeHandle& private_node, ServiceThreads& threads, PathTests& tests)
-    : tests_(tests),
-      calls_(threads.lasting, threads.refusals),
-      server_(calls_.advertise<ros::ServiceSpec<CheckSweep::Request, CheckSweep::Response>>(
-          private_node, "check_sweep", tests.parameters().initial().max_message_size,
-          [this](auto& request, auto& response) { return answerPath(response, [&] { check(request, response); }); },
-          refusePath<CheckSweep::Response>)) {}
-
-void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Response& response) {
-  checkPathOf(request);
-  const auto question =
-      tests_.question(request.volume, request.detector, request.margin, request.fine != 0, calls_.arrival());
-  // Before the snapshot is taken: what is accepted later does not better it.
-  const std::string doubts_before = tests_.meshProblems(request.mesh_ids);
-  for (const auto& workpiece : tests_.selected(*question, request.mesh_ids)) {
-    question->paths.push_back(
-        {workpiece, question->parameters->tool, pathIn(workpiece->frame, request.path, question->go_on), {}});
-  }
-  fill(response, *question, tests_.test(question));
-  response.message =
-      doubts_before.empty() ? tests_.doubts(*question, request.mesh_ids, framesOf(request)) : doubts_before;
-  response.clear = !response.collision && response.message.empty();
-  addRemarks(*question, response.message);
-}
-
-std::vector<Eigen::Isometry3d> CheckSweepService::pathIn(const std::string& mesh_frame,
-                                                         const std::vector<geometry_msgs::PoseStamped>& path,
-                                                         const GoOn& go_on) const {
+std::vector<Eigen::Isometry3d> pathIn(const PathTests& tests, const std::string& mesh_frame,
+                                      const std::vector<geometry_msgs::PoseStamped>& path, const GoOn& go_on) {
   std::vector<Eigen::Isometry3d> path_M;
   const std_msgs::Header* looked_up = nullptr;
   Eigen::Isometry3d X_MF;
@@ -88,7 +60,7 @@ std::vector<Eigen::Isometry3d> CheckSweepService::pathIn(const std::string& mesh
     const bool same = looked_up && looked_up->frame_id == header.frame_id && looked_up->stamp == header.stamp;
     if (!same) go_on("the transform of pose " + std::to_string(i));
     try {
-      if (!same) X_MF = tests_.transform(mesh_frame, header);
+      if (!same) X_MF = tests.transform(mesh_frame, header);
       looked_up = &header;
       path_M.push_back(X_MF * fromMsg(path[i].pose));
     } catch (const sweep_guard_core::Error& error) {
@@ -96,6 +68,25 @@ std::vector<Eigen::Isometry3d> CheckSweepService::pathIn(const std::string& mesh
     }
   }
   return path_M;
+}
+
+}  // namespace
+
+void checkSweep(PathTests& tests, sweep_guard_core::SteadyTime arrival, const CheckSweep::Request& request,
+                CheckSweep::Response& response) {
+  checkPathOf(request);
+  const auto question = tests.question(request.volume, request.detector, request.margin, request.fine != 0, arrival);
+  // Before the snapshot is taken: what is accepted later does not better it.
+  const std::string doubts_before = tests.meshProblems(request.mesh_ids);
+  for (const auto& workpiece : tests.selected(*question, request.mesh_ids)) {
+    question->paths.push_back(
+        {workpiece, question->parameters->tool, pathIn(tests, workpiece->frame, request.path, question->go_on), {}});
+  }
+  fill(response, *question, tests.test(question));
+  response.message =
+      doubts_before.empty() ? tests.doubts(*question, request.mesh_ids, framesOf(request)) : doubts_before;
+  response.clear = !response.collision && response.message.empty();
+  addRemarks(*question, response.message);
 }
 
 }  // namespace sweep_guard_ros

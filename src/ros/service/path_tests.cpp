@@ -4,7 +4,6 @@
 
 #include "ros/guard/detector_test.h"
 #include "ros/service/left_out.h"
-#include "ros/service/limited_calls.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/ros/conversions.h"

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <ros/service_server.h>
+
 #include <atomic>
 #include <chrono>
 #include <exception>
@@ -15,6 +17,8 @@
 #include "ros/input/frames.h"
 #include "ros/parameters/parameters.h"
 #include "ros/process/process.h"
+#include "ros/service/limited_calls.h"
+#include "ros/service/service_threads.h"
 #include "ros/threads/background_thread.h"
 #include "sweep_guard/detection/detector.h"
 #include "sweep_guard/guard/frame_motion.h"
@@ -144,5 +148,27 @@ bool answerPath(Response& response, Check check) {
   response.compute_time = ros::Duration(sweep_guard_core::toSeconds(std::chrono::steady_clock::now() - begin));
   return true;
 }
+
+/// Serves path tests. A call that finds 4 others waiting is answered BUSY at once. A call waits and runs for no longer than
+/// its deadline.
+class PathService {
+ public:
+  /// @param tests  must outlive it
+  /// @param check  as for answerPath()
+  template <typename Request, typename Response>
+  PathService(const ros::NodeHandle& private_node, const std::string& name, ServiceThreads& threads, PathTests& tests,
+              void (*check)(PathTests&, sweep_guard_core::SteadyTime arrival, const Request&, Response&))
+      : calls_(threads.lasting, threads.refusals),
+        server_(calls_.advertise<ros::ServiceSpec<Request, Response>>(
+            private_node, name, tests.parameters().initial().max_message_size,
+            [this, &tests, check](Request& request, Response& response) {
+              return answerPath(response, [&] { check(tests, calls_.arrival(), request, response); });
+            },
+            refusePath<Response>)) {}
+
+ private:
+  LimitedCalls calls_;  // before the server, which uses it
+  ros::ServiceServer server_;
+};
 
 }  // namespace sweep_guard_ros
