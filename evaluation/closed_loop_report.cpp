@@ -69,7 +69,7 @@ bool surfaceComes(const ClosedLoopCount& count) { return count.recording.find(kM
 
 // The figures of one line.
 struct Figures {
-  explicit Figures(const ClosedLoopCount& count) : guarded(count.guarded), placements(count.episodes.size()) {
+  explicit Figures(const ClosedLoopCount& count) : placements(count.episodes.size()) {
     for (size_t i = 0; i < count.episodes.size(); ++i) add(count.episodes[i], count.near_misses[i]);
   }
 
@@ -101,7 +101,6 @@ struct Figures {
     return all > 0 ? static_cast<double>(part) / static_cast<double>(all) : std::numeric_limits<double>::quiet_NaN();
   }
 
-  bool guarded;
   size_t placements;
   std::vector<double> closing_speeds;
   std::vector<double> tool_speeds;
