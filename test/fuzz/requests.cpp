@@ -82,9 +82,9 @@ class World {
         predict_(node_, service_threads_, live_, store_,
                  [this](sweep_guard_core::Duration end) { return motion(end); }),
         intend_(node_, service_threads_, {live_, frames_, store_, intentions_}),
-        attach_(node_, service_threads_, {live_, frames_, store_, monitor_},
-                {[this] { return newestPose(); },
-                 [this](const auto& /*before*/, const auto& next, const auto& /*also*/) { exchange(*next); }}),
+        attach_(
+            node_, service_threads_, {live_, frames_, store_, monitor_}, [this] { return newestPose(); },
+            [this](const auto& /*before*/, const auto& next, const auto& /*also*/) { exchange(*next); }),
         controls_(node_, live_, monitor_, store_, service_threads_,
                   {[] {}, [this](const std::string& id) { return acknowledge(id); }, [] {}}) {
     const sweep_guard_core::TriangleMesh mesh({{-kHalfWidth, -kHalfWidth, 0},

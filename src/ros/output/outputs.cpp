@@ -33,11 +33,12 @@ Outputs::Outputs(const ros::NodeHandle& node, const ros::NodeHandle& private_nod
                  [&guard](const std::string& id) { return guard.thread().acknowledge(id); },
                  [&state] { state.touches.reset(); }}),
       intend_(private_node, service_threads_, {state.parameters, state.frames, state.workpieces, state.intentions}),
-      attach_(private_node, service_threads_, {state.parameters, state.frames, state.workpieces, state.monitor},
-              {[&guard] { return guard.thread().newestPose(); },
-               [&guard](const auto& before, const auto& next, const auto& also) {
-                 guard.thread().exchangeTool(before, next, also);
-               }}),
+      attach_(
+          private_node, service_threads_, {state.parameters, state.frames, state.workpieces, state.monitor},
+          [&guard] { return guard.thread().newestPose(); },
+          [&guard](const auto& before, const auto& next, const auto& also) {
+            guard.thread().exchangeTool(before, next, also);
+          }),
       reconfigure_server_(private_node, service_threads_, master, state.parameters,
                           [this](const auto& wanted) { apply(wanted); }),
       diagnostics_(node, private_node, state, inputs, reconfigure_server_) {
