@@ -70,7 +70,8 @@ std::vector<WarningReport> reportWarnings(const std::vector<Recording>& recordin
   std::vector<std::vector<ObstaclePlacement>> placements;
   std::vector<WarningReport> reports;
   for (const Recording& recording : recordings) {
-    placements.push_back(placeObstacles(RecordedMotion(recording.poses), options.simulation.tool, options.placement));
+    placements.push_back(
+        placeObstacles(RecordedMotion(recording.poses), options.simulation.tool, options.placements, options.seed));
     reports.push_back(emptyReport(recording.name, placements.back().size(), options));
   }
   inParallel(recordings.size() * options.predictors.size(), [&](size_t i) {

@@ -181,11 +181,8 @@ TriangleSet testedTriangles(const SampledQuery& query) {
 }
 
 std::string otherDetector(const std::string& name, std::uint64_t number) {
-  const std::vector<std::string>& names = detectorNames();
-  const std::string& reference = names.back();
-  if (number % kReferencePeriod == 0 && name != reference) return reference;
-  const auto quick = std::find_if(names.rbegin() + 1, names.rend(), [&](const auto& other) { return other != name; });
-  return *quick;
+  if (number % kReferencePeriod == 0 && name != "reference") return "reference";
+  return name == "halfspace" ? "select" : "halfspace";
 }
 
 }  // namespace sweep_guard_core

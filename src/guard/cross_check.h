@@ -93,8 +93,8 @@ std::string describe(const SampledQuery& query, const Disagreement& disagreement
 /// Returns the triangles that the detector was asked about: ascending.
 TriangleSet testedTriangles(const SampledQuery& query);
 
-/// Returns the name of the detector that answers a query again: the last of detectorNames() but one, and for that the one
-/// before. They share code, so every tenth query is for the last one, which shares none.
+/// Returns the name of the detector that answers a query again: `halfspace`, and for that `select`. They share code, so
+/// every tenth query is for `reference`, which shares none.
 /// @param number  of the query: 1, 2, ...
 std::string otherDetector(const std::string& name, std::uint64_t number);
 

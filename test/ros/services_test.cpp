@@ -173,7 +173,7 @@ class ServicesTest : public ::testing::Test {
                          [this](const auto& /*name*/, const auto& /*options*/) {
                            return std::make_unique<sweep_guard_core::FakeDetector>(path_detector_record_);
                          }}};
-  CheckSweepService check_sweep_{node_, service_threads_, path_tests_};
+  PathService check_sweep_{node_, "check_sweep", service_threads_, path_tests_, sweep_guard_ros::checkSweep};
   Controls controls_{
       node_,
       parameters_,

@@ -40,12 +40,12 @@ void ParameterReader::describe(ParameterInfo info) {
 }
 
 double ParameterReader::number(const std::string& key, double fallback, const Range& range, const std::string& effect,
-                               const std::optional<Bound>& bound) {
+                               const std::optional<Range>& narrowed) {
   XmlRpc::XmlRpcValue value;
   if (!get(key, value)) value = fallback;
-  const Range& narrowest = bound ? bound->range : range;
+  const Range& narrowest = narrowed ? *narrowed : range;
   if (!within(toNumber(value), narrowest))
-    refuse(key, value, shown(narrowest) + (bound ? std::string(": ") + bound->note : ""));
+    refuse(key, value, shown(narrowest) + (narrowed ? std::string(": ") + narrowed->note : ""));
   describe(
       {key, toNumber(value), fallback, range.lowest, range.highest, {}, sweep_guard_ros::described(range), effect});
   return toNumber(value);

@@ -131,50 +131,41 @@ void fill(CheckTrajectory::Response& response, const PathQuestion& question, con
   if (first->piece) response.tool_link = path.tool->pieces()[*first->piece].link;
 }
 
+Eigen::Isometry3d toolPoseIn(const PathTests& tests, const std::string& mesh_frame,
+                             const geometry_msgs::PoseStamped& pose) {
+  try {
+    return tests.transform(mesh_frame, pose.header) * fromMsg(pose.pose);
+  } catch (const sweep_guard_core::Error& error) {
+    throw InvalidInput(std::string("tool_pose: ") + error.what());
+  }
+}
+
 }  // namespace
 
-CheckTrajectoryService::CheckTrajectoryService(const ros::NodeHandle& private_node, ServiceThreads& threads,
-                                               PathTests& tests)
-    : tests_(tests),
-      calls_(threads.lasting, threads.refusals),
-      server_(calls_.advertise<ros::ServiceSpec<CheckTrajectory::Request, CheckTrajectory::Response>>(
-          private_node, "check_trajectory", tests.parameters().initial().max_message_size,
-          [this](auto& request, auto& response) { return answerPath(response, [&] { check(request, response); }); },
-          refusePath<CheckTrajectory::Response>)) {}
-
-void CheckTrajectoryService::check(const CheckTrajectory::Request& request, CheckTrajectory::Response& response) {
-  const auto question =
-      tests_.question({request.volume, request.detector, request.margin, request.fine != 0}, calls_.arrival());
+void checkTrajectory(PathTests& tests, sweep_guard_core::SteadyTime arrival, const CheckTrajectory::Request& request,
+                     CheckTrajectory::Response& response) {
+  const auto question = tests.question(request.volume, request.detector, request.margin, request.fine != 0, arrival);
   const RobotModel& model = robotOf(*question->parameters);
   const std::vector<RobotState> states = statesOf(request.trajectory, model);
   // Before the snapshot is taken: what is accepted later does not better it.
-  const std::string doubts_before = tests_.meshProblems(request.mesh_ids);
-  const sweep_guard_core::Workpieces workpieces = tests_.selected(*question, request.mesh_ids);
+  const std::string doubts_before = tests.meshProblems(request.mesh_ids);
+  const sweep_guard_core::Workpieces workpieces = tests.selected(*question, request.mesh_ids);
   question->go_on("the poses of the links");
   const RobotPath path = robotPath(model.robot, states, kMaxDeviation);
   for (const auto& workpiece : workpieces) {
     question->go_on("the transform of tool_pose");
-    const Eigen::Isometry3d X_MT = toolPoseIn(workpiece->frame, request.tool_pose);
+    const Eigen::Isometry3d X_MT = toolPoseIn(tests, workpiece->frame, request.tool_pose);
     for (size_t i = 0; i < path.bodies.size(); ++i) {
       const std::shared_ptr<const sweep_guard_core::Tool> tool(question->parameters->robot, &model.robot.tools[i]);
       question->paths.push_back({workpiece, tool, moved(X_MT, path.bodies[i].X_WB), path.bodies[i].deviation_bounds});
     }
   }
-  fill(response, *question, path, tests_.test(question));
+  fill(response, *question, path, tests.test(question));
   response.message = doubts_before.empty()
-                         ? tests_.doubts(*question, request.mesh_ids, {request.tool_pose.header.frame_id})
+                         ? tests.doubts(*question, request.mesh_ids, {request.tool_pose.header.frame_id})
                          : doubts_before;
   response.clear = !response.collision && response.message.empty();
   addRemarks(*question, response.message);
-}
-
-Eigen::Isometry3d CheckTrajectoryService::toolPoseIn(const std::string& mesh_frame,
-                                                     const geometry_msgs::PoseStamped& pose) const {
-  try {
-    return tests_.transform(mesh_frame, pose.header) * fromMsg(pose.pose);
-  } catch (const sweep_guard_core::Error& error) {
-    throw InvalidInput(std::string("tool_pose: ") + error.what());
-  }
 }
 
 }  // namespace sweep_guard_ros

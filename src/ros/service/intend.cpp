@@ -62,26 +62,17 @@ IntendService::IntendService(const ros::NodeHandle& private_node, ServiceThreads
           {"intend_updates", kQueueLength, dependencies.parameters.initial().max_message_size},
           [this](const ros::MessageEvent<const sweep_guard::Intend>& event) { onUpdate(*event.getConstMessage()); },
           [this](const std::string& reason) { refuseUpdate(reason); })),
-      server_(calls_.advertise<Event>(
-          private_node, "intend", dependencies.parameters.initial().max_message_size,
-          [this](Event& event) { return onCall(event); },
-          [](const std::string& reason, sweep_guard::SetIntent::Response& response) {
-            response.message = reason;
-            return true;
-          })) {
+      server_(calls_.advertise<Event>(private_node, "intend", dependencies.parameters.initial().max_message_size,
+                                      [this](Event& event) { return onCall(event); })) {
   publish({}, /*only_if_changed=*/false);
 }
 
-// Answers errors by a message: a failed ROS call gives the caller none.
 bool IntendService::onCall(Event& event) {
   sweep_guard::SetIntent::Response& response = event.getResponse();
-  try {
+  answerWith(response, [&] {
     set(event.getRequest().intends);
-    response.success = true;
-    response.message = summaryOf(*dependencies_.intentions.at(std::chrono::steady_clock::now()));
-  } catch (const std::exception& error) {
-    response.message = error.what();
-  }
+    return summaryOf(*dependencies_.intentions.at(std::chrono::steady_clock::now()));
+  });
   ROS_INFO("~intend called by %s: %s", sweep_guard_core::printable(event.getCallerName()).c_str(),
            response.message.c_str());
   publishIfChanged();

@@ -1,4 +1,4 @@
-#include "ros/output/view_publisher.h"
+#include "ros/output/view_messages.h"
 
 #include <gtest/gtest.h>
 
