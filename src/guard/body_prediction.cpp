@@ -26,7 +26,7 @@ void BodyPrediction::begin(const BodyPredictionRequest& request, Prediction& pre
   prediction.sweeps_made = request.plan.sweepCount(motion.path);
   prediction.unplaced.clear();
   prediction.failures.clear();
-  X_WB_ = motion.from.body(request.body).X_WB;
+  X_WB_ = motion.from.bodies[request.body].X_WB;
   next_ = tested_ = 0;
   checker_.giveUp();
   checker_.forgetPath();

@@ -75,38 +75,10 @@ void MeasuredSweeps::pass(const PoseWithFrames& pose, const BodyPose& body, cons
   if (!waiting_since_ && !pose.anew) waiting_since_ = pose.received;
 }
 
+// A workpiece that is not swept now is swept from the same pose on next time.
 void MeasuredSweeps::sweep(const SweepSetup& setup, const PoseWithFrames& pose, const std::optional<BodyPose>& arrived,
                            const Workpieces& workpieces, SweepReport& report) {
-  begin(workpieces);
-  if (arrived) poses_.add(pose, *arrived, setup.frames);
-  poses_.join(setup.frames);
-  poses_.findJumps(swept_to_, setup.limits, report.jumps);
-  report.start = report.end = pose.stamp;
-  report.unplaced.clear();
-  report.failures.clear();
-  sweepWorkpieces(setup, pose, workpieces, report);
-  sweepReplaced(setup, pose, report);
-  poses_.forgetBefore(kMaxUpdateInterval,
-                      [this](const std::string& frame, std::uint64_t newest) { return firstUnswept(frame, newest); });
-  report.backlog = pose.received - waiting_since_.value_or(pose.received);
-  waiting_since_.reset();
-  report.passed_over = poses_.takePassedOver();
-  swept_to_ = poses_.newest();
-}
-
-void MeasuredSweeps::begin(const Workpieces& workpieces) {
-  forgetRemoved(workpieces);
-  for (auto& [id, swept] : swept_) {
-    swept.before = swept.pose;
-    swept.grown = false;
-  }
-  for (auto replaced = replaced_.begin(); replaced != replaced_.end();)
-    replaced = replaced->second.reported ? replaced_.erase(replaced) : std::next(replaced);
-}
-
-// A workpiece that is not swept now is swept from the same pose on next time.
-void MeasuredSweeps::sweepWorkpieces(const SweepSetup& setup, const PoseWithFrames& pose, const Workpieces& workpieces,
-                                     SweepReport& report) {
+  begin(setup, pose, arrived, workpieces, report);
   size_t tested = 0;
   for (const auto& workpiece : workpieces) {
     if (!poses_.isPlaced(workpiece->frame, pose, setup.frames)) {
@@ -115,9 +87,7 @@ void MeasuredSweeps::sweepWorkpieces(const SweepSetup& setup, const PoseWithFram
     }
     try {
       if (tested == report.objects.size()) report.objects.emplace_back();
-      SweptObject& object = report.objects[tested];
-      sweepObject(setup, workpiece, lastSwept(workpiece), pose.stamp, object);
-      report.start = std::min(report.start, object.interval_start);
+      sweepObject(setup, workpiece, lastSwept(workpiece), report, report.objects[tested]);
       ++tested;
     } catch (const std::exception& error) {  // of the detector, or no memory: the other workpieces are swept
       report.failures.push_back({workpiece, error.what()});
@@ -128,6 +98,34 @@ void MeasuredSweeps::sweepWorkpieces(const SweepSetup& setup, const PoseWithFram
     Swept& swept = lastSwept(workpiece);
     swept.before = swept.pose;
   }
+  sweepReplaced(setup, pose, report);
+  end(pose, report);
+}
+
+void MeasuredSweeps::begin(const SweepSetup& setup, const PoseWithFrames& pose, const std::optional<BodyPose>& arrived,
+                           const Workpieces& workpieces, SweepReport& report) {
+  forgetRemoved(workpieces);
+  for (auto& [id, swept] : swept_) {
+    swept.before = swept.pose;
+    swept.grown = false;
+  }
+  for (auto replaced = replaced_.begin(); replaced != replaced_.end();)
+    replaced = replaced->second.reported ? replaced_.erase(replaced) : std::next(replaced);
+  if (arrived) poses_.add(pose, *arrived, setup.frames);
+  poses_.join(setup.frames);
+  poses_.findJumps(swept_to_, setup.limits, report.jumps);
+  report.start = report.end = pose.stamp;
+  report.unplaced.clear();
+  report.failures.clear();
+}
+
+void MeasuredSweeps::end(const PoseWithFrames& pose, SweepReport& report) {
+  poses_.forgetBefore(kMaxUpdateInterval,
+                      [this](const std::string& frame, std::uint64_t newest) { return firstUnswept(frame, newest); });
+  report.backlog = pose.received - waiting_since_.value_or(pose.received);
+  waiting_since_.reset();
+  report.passed_over = poses_.takePassedOver();
+  swept_to_ = poses_.newest();
 }
 
 // What fails is swept to the next pose.
@@ -138,8 +136,7 @@ void MeasuredSweeps::sweepReplaced(const SweepSetup& setup, const PoseWithFrames
     if (!poses_.isPlaced(workpiece->frame, pose, setup.frames)) continue;
     SweptObject& object = report.replaced.emplace_back();
     try {
-      sweepObject(setup, workpiece, replaced.swept, pose.stamp, object);
-      report.start = std::min(report.start, object.interval_start);
+      sweepObject(setup, workpiece, replaced.swept, report, object);
       replaced.reported = true;
     } catch (const std::exception& error) {  // of the detector, or no memory
       report.replaced.pop_back();
@@ -148,9 +145,8 @@ void MeasuredSweeps::sweepReplaced(const SweepSetup& setup, const PoseWithFrames
   }
 }
 
-// @param end_time  of the interval that times of impact are fractions of
 void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<const Workpiece>& workpiece,
-                                 Swept& swept, Time end_time, SweptObject& object) {
+                                 Swept& swept, SweepReport& report, SweptObject& object) {
   const PoseHistory& history = poses_.of(workpiece->frame);
   const size_t last = history.size() - 1;
   swept.before = swept.pose;
@@ -161,7 +157,7 @@ void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<
   const MovingMesh mesh = movingMesh(*workpiece, *from, setup.displacements.between(from, workpiece));
   const bool again = deformed && mesh.moved();
   const size_t first = again ? std::min(begin, history.lastUpTo(before.stamp)) : begin;
-  const Segment segment{*workpiece, history, mesh, first, begin, last, begin, end_time};
+  const Segment segment{history, first, begin, last};
   object.workpiece = workpiece;
   object.interval_start = history[begin].stamp;
   object.result.clear();
@@ -170,9 +166,19 @@ void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<
     leaveOut(setup, segment.hasNew(), swept.cache, object.result);
   } else {
     cache_ = swept.cache;
+    const ContactPolicy contact(setup.tool, *workpiece, &setup.allowed, &setup.intentions);
     for (size_t start = first; start <= last;) {
       const Segment motion = segment.motionFrom(start);
-      sweepSegment(setup, motion, object);
+      history.path_M(motion.first, motion.last, setup.tool.boundingRadius(), path_M_);
+      size_t i = start;
+      do {
+        const size_t end = beginMotion(setup, motion, i, object.result);
+        SweepResult& result =
+            sweep_checker_.check(setup.detector, {setup.tool, sub_motions_M_, mesh, setup.options, cache_, contact});
+        keep(motion.isNew(i), history.share(begin, i, report.end), history.share(begin, end, report.end), result,
+             object);
+        i = end;
+      } while (i < motion.last);
       if (motion.last < last)
         cache_ = {};  // what was found before a change of place says nothing of where things are now
       start = motion.last + 1;
@@ -182,37 +188,36 @@ void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<
   swept.grown = deformed;
   swept.pose = history.newest().number;
   if (!left_out) std::swap(swept.cache, cache_);
+  report.start = std::min(report.start, object.interval_start);
 }
 
 MeasuredSweeps::Segment MeasuredSweeps::Segment::motionFrom(size_t start) const {
   const size_t end = history.endOfMotion(start, last);
-  return {workpiece, history, mesh, start, std::clamp(begin, start, end), end, interval_begin, end_time};
+  return {history, start, std::clamp(begin, start, end), end};
 }
 
-void MeasuredSweeps::sweepSegment(const SweepSetup& setup, const Segment& segment, SweptObject& object) {
-  const auto& [workpiece, history, mesh, first, begin, last, interval_begin, end_time] = segment;
-  const ContactPolicy contact(setup.tool, workpiece, &setup.allowed, &setup.intentions);
-  history.path_M(first, last, setup.tool.boundingRadius(), path_M_);
-  size_t i = first;
-  do {
-    setup.before_sweep();
-    const bool is_new = segment.isNew(i);
-    const size_t end = first + endOfMotion(setup, i - first, (is_new ? last : begin) - first);
-    findSubMotions(setup, history, first, i - first, end - first);
-    cache_.already_confirmed.clear();
-    if (!is_new) {
-      cache_.already_confirmed = object.result.not_ruled_out;
-      remove(cache_.already_confirmed, object.result.intended);
-    }
-    SweepResult& result =
-        sweep_checker_.check(setup.detector, {setup.tool, sub_motions_M_, mesh, setup.options, cache_, contact});
-    if (is_new) cache_.contact_normals.clear();
-    update(cache_, result);
-    for (std::vector<TriangleContact>* const in_contact : {&result.in_contact, &result.allowed.in_contact})
-      rescale(*in_contact, history.share(interval_begin, i, end_time), history.share(interval_begin, end, end_time));
-    unite(object.result, result);
-    i = end;
-  } while (i < last);
+// Finds the sub-motions of the next sweep along a segment, from pose i on, and what of it is known. Returns its last pose.
+size_t MeasuredSweeps::beginMotion(const SweepSetup& setup, const Segment& segment, size_t i,
+                                   const SweepResult& found) {
+  setup.before_sweep();
+  const size_t first = segment.first;
+  const bool is_new = segment.isNew(i);
+  const size_t end = first + endOfMotion(setup, i - first, (is_new ? segment.last : segment.begin) - first);
+  findSubMotions(setup, segment.history, first, i - first, end - first);
+  cache_.already_confirmed.clear();
+  if (is_new) return end;
+  cache_.already_confirmed = found.not_ruled_out;
+  remove(cache_.already_confirmed, found.intended);
+  return end;
+}
+
+// Adds what a sweep met, which lasts from `begin` to `end` of the interval.
+void MeasuredSweeps::keep(bool is_new, double begin, double end, SweepResult& result, SweptObject& object) {
+  if (is_new) cache_.contact_normals.clear();
+  update(cache_, result);
+  for (std::vector<TriangleContact>* const in_contact : {&result.in_contact, &result.allowed.in_contact})
+    rescale(*in_contact, begin, end);
+  unite(object.result, result);
 }
 
 // Returns the deformation that was there at the time of a pose, and forgets those before it.

@@ -77,14 +77,10 @@ class MeasuredSweeps {
   // Poses to be swept against one workpiece, from motion to motion. Those before `begin` were swept when its deformation was not
   // known yet.
   struct Segment {
-    const Workpiece& workpiece;
     const PoseHistory& history;
-    const MovingMesh& mesh;
     size_t first;
     size_t begin;
     size_t last;
-    size_t interval_begin;  // pose that the interval begins at that times of impact are fractions of
-    Time end_time;          // of that interval
 
     bool isNew(size_t i) const { return i >= begin; }
     bool hasNew() const { return first == begin || begin < last; }
@@ -93,13 +89,14 @@ class MeasuredSweeps {
     Segment motionFrom(size_t start) const;
   };
 
-  void begin(const Workpieces& workpieces);
-  void sweepWorkpieces(const SweepSetup& setup, const PoseWithFrames& pose, const Workpieces& workpieces,
-                       SweepReport& report);
+  void begin(const SweepSetup& setup, const PoseWithFrames& pose, const std::optional<BodyPose>& arrived,
+             const Workpieces& workpieces, SweepReport& report);
+  void end(const PoseWithFrames& pose, SweepReport& report);
   void sweepObject(const SweepSetup& setup, const std::shared_ptr<const Workpiece>& workpiece, Swept& swept,
-                   Time end_time, SweptObject& object);
+                   SweepReport& report, SweptObject& object);
   void sweepReplaced(const SweepSetup& setup, const PoseWithFrames& pose, SweepReport& report);
-  void sweepSegment(const SweepSetup& setup, const Segment& segment, SweptObject& object);
+  size_t beginMotion(const SweepSetup& setup, const Segment& segment, size_t i, const SweepResult& found);
+  void keep(bool is_new, double begin, double end, SweepResult& result, SweptObject& object);
   static const std::shared_ptr<const Workpiece>& deformationAt(Time pose, const Workpiece& newest, Swept& swept,
                                                                Duration& behind);
   void replace(Swept& swept, const std::shared_ptr<const Workpiece>& workpiece);

@@ -124,7 +124,9 @@ Ask askAbout(const ConvexShape& shape_T, const Sweep& sweep, const Eigen::Isomet
   };
   const Motion motion_M{pose(-1.0), pose(1.0)};
   return [=](Detector& detector, const TriangleMesh& mesh_M, Detection& detection) {
-    detect(detector, mesh_M, sweptBody(shape_T, motion_M, kind, mesh_M.rounding()), detection);
+    const SweptBody body = sweptBody(shape_T, motion_M, kind, mesh_M.rounding());
+    detection = detector.detect(mesh_M, body.volume_M);
+    HullFilter(body, mesh_M, detection.inflation).removeLeftOut(detection.triangles);
   };
 }
 

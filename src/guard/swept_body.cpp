@@ -55,14 +55,10 @@ bool HullFilter::misses(std::uint32_t triangle, double growth) const {
   return missedByHull(*body_.shape_T, body_.motion_M, mesh_M_.triangle(triangle), body_.volume_M.margin + growth);
 }
 
-void detect(Detector& detector, const Submesh& submesh, const SweptBody& body, Detection& detection) {
-  beat();
-  detection = detector.detect(submesh, body.volume_M);
-  const HullFilter hull(body, submesh.mesh_M(), detection.inflation);
-  if (!hull.filters()) return;
-  TriangleSet& triangles = detection.triangles;
-  const auto isLeftOut = [&](std::uint32_t triangle) { return hull.leavesOut(triangle); };
-  triangles.erase(std::remove_if(triangles.begin(), triangles.end(), isLeftOut), triangles.end());
+void HullFilter::removeLeftOut(TriangleSet& triangles) const {
+  if (!filters()) return;
+  const auto is_left_out = [this](std::uint32_t triangle) { return leavesOut(triangle); };
+  triangles.erase(std::remove_if(triangles.begin(), triangles.end(), is_left_out), triangles.end());
 }
 
 }  // namespace sweep_guard_core

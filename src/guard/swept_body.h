@@ -23,13 +23,8 @@ struct SweptBody {
 /// @param margin  the body is grown by this [m], >= 0
 SweptBody sweptBody(const ConvexShape& shape_T, const Motion& motion_M, VolumeKind kind, double margin);
 
-/// Finds the triangles that the volume meets. For kind `hull`, leaves out the triangles that are proven to miss the
-/// hull of the body at both ends of the motion, before and after its mesh_translation, grown by the volume's margin.
-/// @param[out] detection  overwritten
-/// @throws DeviceError if the detector fails
-void detect(Detector& detector, const Submesh& submesh, const SweptBody& body, Detection& detection);
-
-/// Tells which of the triangles that a detector names for a swept body the body misses, on a mesh at rest.
+/// Tells which of the triangles that a detector names for a swept body the body misses, on a mesh at rest: those that are proven
+/// to miss the hull of the body at both ends of the motion, before and after its mesh_translation, grown by the volume's margin.
 class HullFilter {
  public:
   /// @param body, mesh_M  must outlive this
@@ -37,13 +32,14 @@ class HullFilter {
   HullFilter(const SweptBody& body, const TriangleMesh& mesh_M, double inflation)
       : body_(body), mesh_M_(mesh_M), inflation_(inflation) {}
 
-  bool filters() const { return body_.kind == VolumeKind::kHull; }  ///< otherwise the volume decides alone
   /// Returns whether the volume is `hull` and the body is proven to miss a triangle by the margin and the inflation.
   bool leavesOut(std::uint32_t triangle) const { return filters() && misses(triangle, inflation_); }
+  void removeLeftOut(TriangleSet& triangles) const;  ///< removes those that leavesOut()
   /// Returns whether the body is proven to miss a triangle by its margin, whatever the volume.
   bool bodyMisses(std::uint32_t triangle) const { return misses(triangle, 0.0); }
 
  private:
+  bool filters() const { return body_.kind == VolumeKind::kHull; }  // otherwise the volume decides alone
   bool misses(std::uint32_t triangle, double growth) const;
 
   const SweptBody& body_;

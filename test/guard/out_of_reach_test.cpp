@@ -297,6 +297,7 @@ class ArmAmongHulls {
     bodyPoses(robot_->tree, robot_->bodies, state_, X_WB);
     PoseWithFrames pose{at(ms_), {}, state_.X_WR, {{"table", up(0.0)}, {"table of one that comes later", up(0.1)}}};
     if (random_.chance(0.9)) pose.X_WM["turning"] = X_WM_;
+    pose.bodies.clear();
     for (size_t i = 0; i < X_WB.size(); ++i) pose.bodies.push_back({X_WB[i], motion.deviationBound(i, 1)});
     pose.state = state_;
     return pose;

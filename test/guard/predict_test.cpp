@@ -549,6 +549,7 @@ class SlowGuard {
     const SteadyTime begin = clock_;
     pose_.X_WT.translation().x() += 0.0001;
     pose_.X_WT.rotate(Eigen::AngleAxisd(0.066 * turn_rate, Eigen::Vector3d::UnitX()));
+    pose_.bodies = {{pose_.X_WT}};
     pose_.stamp += 66ms;
     reportOf(*guard_, pose_, workpieces_);
     PredictionRun run = guard_->beginPrediction(5ms, workpieces_, prediction);

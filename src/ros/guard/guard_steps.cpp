@@ -94,26 +94,15 @@ GuardSteps::GuardSteps(const ros::NodeHandle& private_node, const GuardThreadDep
       guard_(guardOf(dependencies.parameters.initial(), firstDetector(dependencies))),
       acknowledgements_(dependencies.parameters, dependencies.monitor, dependencies.sampler, guard_) {}
 
-GuardSteps::Done GuardSteps::take(sweep_guard_core::QueuedPose& queued, const sweep_guard_core::QueuedPose* next) {
-  if (!dependencies_.monitor.isToBeSwept(queued.checkpoint)) return Done::kNothing;
+GuardSteps::Taken GuardSteps::take(sweep_guard_core::QueuedPose& queued, const sweep_guard_core::QueuedPose* next) {
+  if (!dependencies_.monitor.isToBeSwept(queued.checkpoint)) return Taken::kOutdated;
   if (!queued.checkpoint.continues(checkpoint_)) resetMotion();
   checkpoint_ = queued.checkpoint;
   const bool is_passed = queued.pose.anew || (next != nullptr && knowsAllFramesOf(queued, *next));
   frames_known_to_ = follow(queued.pose);
-  if (is_passed) {
-    pass(queued.pose);
-    return Done::kPassed;
-  }
-  for (const std::string& frame : placed_anew_.frames) queued.pose.drifts.try_emplace(frame);
-  try {
-    sweep(queued);
-  } catch (...) {
-    guard_.takeBack();
-    throw;
-  }
-  placed_anew_ = {};
-  prediction_due_ = true;
-  return Done::kSwept;
+  if (!is_passed) return Taken::kToSweep;
+  pass(queued.pose);
+  return Taken::kPassed;
 }
 
 // Returns the time up to which all frames that are followed are known, but for those that are silent: at most that of the pose.
@@ -149,22 +138,35 @@ void GuardSteps::pass(const sweep_guard_core::PoseWithFrames& pose) {
   dependencies_.scene.passed(pose);
 }
 
-void GuardSteps::sweep(const sweep_guard_core::QueuedPose& queued) {
-  const sweep_guard_core::PoseWithFrames& pose = queued.pose;
-  const SteadyTime begin = std::chrono::steady_clock::now();
-  const auto report = reports_.take();
-  const sweep_guard_core::Workpieces workpieces = dependencies_.workpieces.snapshot();
-  beginSweep(queued, workpieces);
-  guard_.sweep(pose, workpieces, *report);
-  const SteadyTime end = std::chrono::steady_clock::now();
-  triangles_are_new_ = !haveSameTriangles(workpieces, predicted_with_);
-  swept_ = queued;
-  warn(*report, queued);
+void GuardSteps::sweep(sweep_guard_core::QueuedPose& queued) {
+  for (const std::string& frame : placed_anew_.frames) queued.pose.drifts.try_emplace(frame);
+  try {
+    const SteadyTime begin = std::chrono::steady_clock::now();
+    const auto report = reports_.take();
+    const sweep_guard_core::Workpieces workpieces = dependencies_.workpieces.snapshot();
+    beginSweep(queued, workpieces);
+    guard_.sweep(queued.pose, workpieces, *report);
+    const SteadyTime end = std::chrono::steady_clock::now();
+    triangles_are_new_ = !haveSameTriangles(workpieces, predicted_with_);
+    swept_ = queued;
+    warn(*report, queued);
 
-  const SteadyTime warned = std::chrono::steady_clock::now();
-  for (const SteadyTime received : passed_) dependencies_.statistics.swept(warned - received, {});
-  passed_.clear();
-  dependencies_.statistics.swept(warned - pose.received, end - begin);
+    const SteadyTime warned = std::chrono::steady_clock::now();
+    for (const SteadyTime received : passed_) dependencies_.statistics.swept(warned - received, {});
+    passed_.clear();
+    dependencies_.statistics.swept(warned - queued.pose.received, end - begin);
+    publish(report, queued, workpieces);
+  } catch (...) {
+    guard_.takeBack();
+    throw;
+  }
+  placed_anew_ = {};
+  prediction_due_ = true;
+}
+
+void GuardSteps::publish(const std::shared_ptr<sweep_guard_core::SweepReport>& report,
+                         const sweep_guard_core::QueuedPose& queued, const sweep_guard_core::Workpieces& workpieces) {
+  const sweep_guard_core::PoseWithFrames& pose = queued.pose;
   reportFailures(report->failures);
   dependencies_.scene.swept(pose, report);
   if (dependencies_.monitor.counts(queued.checkpoint)) {  // otherwise time has jumped: nobody may move by these
@@ -185,7 +187,7 @@ void GuardSteps::sweepOn() {
   const sweep_guard_core::Workpieces workpieces = dependencies_.workpieces.snapshot();
   beginSweep(*swept_, workpieces);
   try {
-    guard_.sweepOn(workpieces, *report);
+    guard_.sweep(swept_->pose, workpieces, *report, /*arrived=*/false);
   } catch (...) {
     guard_.takeBack();
     throw;

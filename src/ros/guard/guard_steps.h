@@ -101,11 +101,13 @@ class GuardSteps {
   /// Sets what catches failures of the publishers: they do not keep a pose from being swept.
   void setTop(ThreadTop& top) { top_ = &top; }
 
-  enum class Done { kNothing, kPassed, kSwept };
-  /// Sweeps to a pose, or passes it: it is then part of the motion to the next one. Does nothing with a pose from before a
-  /// restart. What throws leaves the pose to be taken again.
+  enum class Taken { kOutdated, kPassed, kToSweep };
+  /// Takes a pose, unless it is from before a restart. Passes it if that is enough: it is then part of the motion to the next
+  /// one. If not, sweep() comes next. What throws in either leaves the pose to be taken again.
   /// @param next  pose that waits behind it; null: none does
-  Done take(sweep_guard_core::QueuedPose& queued, const sweep_guard_core::QueuedPose* next);
+  Taken take(sweep_guard_core::QueuedPose& queued, const sweep_guard_core::QueuedPose* next);
+  /// Sweeps to the pose that was taken.
+  void sweep(sweep_guard_core::QueuedPose& queued);
   /// Sweeps against what is known further of frames, up to the newest pose. If it fails, the next sweep makes up for it.
   void sweepOn();
 
@@ -136,9 +138,10 @@ class GuardSteps {
   sweep_guard_core::Time follow(sweep_guard_core::PoseWithFrames& pose);
   void forgetFrames();
   void pass(const sweep_guard_core::PoseWithFrames& pose);
-  void sweep(const sweep_guard_core::QueuedPose& queued);
   void beginSweep(const sweep_guard_core::QueuedPose& queued, const sweep_guard_core::Workpieces& workpieces);
   void warn(const sweep_guard_core::SweepReport& report, const sweep_guard_core::QueuedPose& queued);
+  void publish(const std::shared_ptr<sweep_guard_core::SweepReport>& report, const sweep_guard_core::QueuedPose& queued,
+               const sweep_guard_core::Workpieces& workpieces);
   void reportFailures(const std::vector<sweep_guard_core::SweepFailure>& failures);
 
   const GuardThreadDependencies dependencies_;

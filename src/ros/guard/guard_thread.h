@@ -65,12 +65,12 @@ class GuardThread {
   void runInTime(const std::function<void()>& task, const std::string& otherwise);
   void setPriority() const;
   void run();
-  bool workOnce();
-  bool sweepPoses();
-  bool sweepNext();
-  void takeNext();
+  bool takeWork();
+  bool takeNext();
+  void pauseAfterFailure();
   bool takeMore();
   bool timeToPredict() const;
+  bool predictIfDue();
   std::optional<sweep_guard_core::SteadyTime> latestPrediction() const;
   void predict();
   bool sweepWaiting();

@@ -19,7 +19,7 @@ std::vector<sweep_guard_core::ToolJumps::Joint> jointsOf(const Parameters& param
 JumpWatch::JumpWatch(const LiveParameters& live)
     : live_(live), jumps_(live.initial().tool_frame, live.initial().fixed_frame, jointsOf(live.initial())) {}
 
-std::string JumpWatch::jumpTo(const ArticulatedTool::Pose& state) {
+std::string JumpWatch::jumpTo(const sweep_guard_core::PoseWithFrames& state) {
   const auto newest = live_.get();  // limits may change
   const sweep_guard_core::PredictorOptions& limits = newest->guard.predictor;
   return jumps_.add({state.stamp, state.X_WT, state.state.positions}, {limits.max_speed, limits.max_turn_rate});

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "prediction/tool_jumps.h"
-#include "ros/input/articulated_tool.h"
 #include "ros/parameters/parameters.h"
+#include "sweep_guard/guard/pose_with_frames.h"
 
 namespace sweep_guard_ros {
 
@@ -15,7 +15,7 @@ class JumpWatch {
 
   /// Adds the newest state: the last of the poses that the motion to it was cut into.
   /// @returns what jumped to it, in words; empty: nothing did
-  std::string jumpTo(const ArticulatedTool::Pose& state);
+  std::string jumpTo(const sweep_guard_core::PoseWithFrames& state);
 
   /// Returns which joint moved to that state much faster than the robot description says, in words; empty: none.
   std::string faster() const { return jumps_.faster(); }
