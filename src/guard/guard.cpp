@@ -20,8 +20,7 @@ namespace {
 
 std::vector<std::unique_ptr<GuardedBody>> guarded(std::vector<Tool> bodies, const GuardOptions& options) {
   std::vector<std::unique_ptr<GuardedBody>> all;
-  for (Tool& body : bodies)
-    all.push_back(std::make_unique<GuardedBody>(std::move(body), PathChecker::optionsOf(options)));
+  for (Tool& body : bodies) all.push_back(std::make_unique<GuardedBody>(std::move(body), options));
   return all;
 }
 
@@ -145,7 +144,7 @@ void Guard::exchange(GuardChange& change) {
     if (change.detector || !change.bodies.empty() || others_allowed) body.sweeps.forgetContacts();
     if (!change.bodies.empty()) std::swap(body.tool, change.bodies[i]);
     if (!change.bodies.empty()) body.touches.clear();
-    body.running = std::make_unique<BodyPrediction>(PathChecker::optionsOf(options_));
+    body.running = std::make_unique<BodyPrediction>(options_);
   }
   if (change.predictor) {
     std::swap(predictor_, *change.predictor);

@@ -416,11 +416,11 @@ PredictedPath randomSteps(Random& random, const Eigen::Isometry3d& X_WT) {
   return path;
 }
 
-FramePath randomFrame(Random& random) {
-  FramePath frame;
+PredictedPath randomFrame(Random& random) {
+  PredictedPath frame;
   Eigen::Isometry3d X = random.pose(random.inBox({0.3, 0.3, 0.3}));
   for (int i = 0; i <= 2; ++i) {
-    frame.points.push_back({X, i == 0 ? Matrix6d::Zero() : randomCovariance(random), i == 0 ? 0.0 : 0.001});
+    frame.push_back({i * 50ms, X, i == 0 ? Matrix6d::Zero() : randomCovariance(random), i == 0 ? 0.0 : 0.001});
     X = Eigen::Translation3d(random.uniform(0.0, 0.05) * random.direction()) * X *
         random.turn(random.uniform(0.0, 0.3));
   }

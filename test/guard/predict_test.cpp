@@ -338,7 +338,7 @@ class CoarseSweepsTest : public testing::Test {
       ASSERT_EQ(ends.back(), path.size());
       for (const bool spent : {false, true}) {
         SCOPED_TRACE(std::to_string(sweeps) + (spent ? " sweeps, no time" : " sweeps"));
-        PathChecker checker({SweepOptions(), 5ms});
+        PathChecker checker(SweepOptions(), 5ms);
         PredictedObject object;
         checker.check(detector_,
                       {Tool(tool),
@@ -440,7 +440,7 @@ class ToolPiecesTest : public testing::Test {
     for (PredictedPose& pose : path) {
       pose.covariance.topLeftCorner<3, 3>().diagonal().setConstant(deviation * deviation);
     }
-    PathChecker checker({SweepOptions(), 5ms});
+    PathChecker checker(SweepOptions(), 5ms);
     PredictedObject object;
     checker.check(detector_,
                   {tool_,

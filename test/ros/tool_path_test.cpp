@@ -43,7 +43,7 @@ class ToolPathTest : public BaseAndArm {
   sweep_guard_core::FrameMotionStore frame_motions_;
   sweep_guard_core::InputRecord record_;
   MovingFrames moving_frames_{parameters_.fixed_frame, {frames_, frame_motions_, monitor_, queue_, record_}};
-  ToolPath path_{parameters_.fixed_frame, {frames_, workpieces_, moving_frames_}};
+  ToolPath path_{parameters_.fixed_frame, frames_, workpieces_, moving_frames_};
   std::vector<sweep_guard_core::QueuedPose> placed_;
   std::vector<double> queued_;
   const std::string base_ = "base";

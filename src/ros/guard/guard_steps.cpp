@@ -69,30 +69,20 @@ Duration ageOf(const Timestamps& pose, const Instant& at) { return std::max(age(
 ToolShapes::ToolShapes(const Parameters& parameters)
     : pieces(sweep_guard_core::interpenetrationFinders(*parameters.bodies)), surface(surfaceMsg(parameters)) {}
 
-ToolPublishers::ToolPublishers(const ros::NodeHandle& private_node, const LiveParameters& parameters,
-                               const sweep_guard_core::WarningMonitor& monitor)
-    : proximity(private_node, parameters, monitor),
-      interaction(private_node, parameters, monitor),
-      bodies(private_node, parameters) {}
-
-void ToolPublishers::setTool(const Parameters& parameters, ToolShapes& shapes) {
-  proximity.setTool(*parameters.tool);
-  interaction.exchange(shapes.pieces);
-  bodies.setTool(*parameters.bodies, shapes.surface);
-}
-
-void ToolPublishers::reset() {
-  proximity.reset();
-  interaction.reset();
-  bodies.reset();
-}
-
 GuardSteps::GuardSteps(const ros::NodeHandle& private_node, const GuardThreadDependencies& dependencies)
     : dependencies_(dependencies),
       results_(private_node, dependencies.parameters),
-      publishers_(private_node, dependencies.parameters, dependencies.monitor),
+      proximity_(private_node, dependencies.parameters, dependencies.monitor),
+      interaction_(private_node, dependencies.parameters, dependencies.monitor),
+      bodies_(private_node, dependencies.parameters),
       guard_(guardOf(dependencies.parameters.initial(), firstDetector(dependencies))),
       acknowledgements_(dependencies.parameters, dependencies.monitor, dependencies.sampler, guard_) {}
+
+void GuardSteps::setTool(const Parameters& parameters, ToolShapes& shapes) {
+  proximity_.setTool(*parameters.tool);
+  interaction_.exchange(shapes.pieces);
+  bodies_.setTool(*parameters.bodies, shapes.surface);
+}
 
 GuardSteps::Taken GuardSteps::take(sweep_guard_core::QueuedPose& queued, const sweep_guard_core::QueuedPose* next) {
   if (!dependencies_.monitor.isToBeSwept(queued.checkpoint)) return Taken::kOutdated;
@@ -130,10 +120,10 @@ void GuardSteps::pass(const sweep_guard_core::PoseWithFrames& pose) {
   if (pose.anew) {
     placed_anew_.any = true;
     placed_anew_.frames.insert(pose.anew->frames.begin(), pose.anew->frames.end());
-    if (pose.anew->tool) publishers_.bodies.reset();
-    return publishers_.interaction.reset();
+    if (pose.anew->tool) bodies_.reset();
+    return interaction_.reset();
   }
-  publishers_.bodies.moved(pose);
+  bodies_.moved(pose);
   passed_.push_back(pose.received);
   dependencies_.scene.passed(pose);
 }
@@ -170,9 +160,9 @@ void GuardSteps::publish(const std::shared_ptr<sweep_guard_core::SweepReport>& r
   reportFailures(report->failures);
   dependencies_.scene.swept(pose, report);
   if (dependencies_.monitor.counts(queued.checkpoint)) {  // otherwise time has jumped: nobody may move by these
-    top_->run([&] { publishers_.proximity.swept(pose, workpieces, *report, guard_); });
-    top_->run([&] { publishers_.interaction.swept(pose, workpieces, *report); });
-    top_->run([&] { publishers_.bodies.moved(pose); });
+    top_->run([&] { proximity_.swept(pose, workpieces, *report, guard_); });
+    top_->run([&] { interaction_.swept(pose, workpieces, *report); });
+    top_->run([&] { bodies_.moved(pose); });
   }
   top_->run([&] { dependencies_.touches.swept(*report, workpieces); });
   forgetFrames();
@@ -265,7 +255,7 @@ void GuardSteps::endPrediction(const RunningPrediction& running) {
   if (acknowledgements_.endWhereFar(predicted_with_, predictedFrom(pose, checkpoint_.epoch)))
     dependencies_.warnings.publishIfChanged();
   dependencies_.scene.predicted(pose, running.prediction);
-  publishers_.bodies.predicted(pose, prediction);
+  bodies_.predicted(pose, prediction);
 }
 
 std::string GuardSteps::acknowledge(const std::string& id) {
@@ -283,7 +273,9 @@ void GuardSteps::forget() {
 
 void GuardSteps::resetMotion() {
   guard_.reset();
-  publishers_.reset();
+  proximity_.reset();
+  interaction_.reset();
+  bodies_.reset();
   passed_.clear();
   placed_anew_ = {};
 }

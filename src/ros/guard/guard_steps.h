@@ -42,22 +42,6 @@ struct ToolShapes {
   boost::shared_ptr<sweep_guard::ToolSurface> surface;
 };
 
-/// Publishes what is known of the tool beside warnings, at every swept pose. One thread.
-struct ToolPublishers {
-  ToolPublishers(const ros::NodeHandle& private_node, const LiveParameters& parameters,
-                 const sweep_guard_core::WarningMonitor& monitor);
-
-  /// Exchanges the tool.
-  /// @param shapes  of the same parameters; those before when it returns
-  void setTool(const Parameters& parameters, ToolShapes& shapes);
-
-  void reset();  ///< forgets all motion
-
-  ProximityPublisher proximity;
-  InteractionPublisher interaction;
-  BodiesPublisher bodies;
-};
-
 struct GuardThreadDependencies {
   LiveParameters& parameters;
   const sweep_guard_core::WorkpieceStore& workpieces;
@@ -96,7 +80,9 @@ class GuardSteps {
   GuardSteps(const ros::NodeHandle& private_node, const GuardThreadDependencies& dependencies);
 
   sweep_guard_core::Guard& guard() { return guard_; }
-  ToolPublishers& publishers() { return publishers_; }
+  /// Exchanges the tool that is published.
+  /// @param shapes  of the same parameters; those before when it returns
+  void setTool(const Parameters& parameters, ToolShapes& shapes);
 
   /// Sets what catches failures of the publishers: they do not keep a pose from being swept.
   void setTop(ThreadTop& top) { top_ = &top; }
@@ -146,7 +132,9 @@ class GuardSteps {
 
   const GuardThreadDependencies dependencies_;
   const ResultPublisher results_;
-  ToolPublishers publishers_;
+  ProximityPublisher proximity_;  // these publish what is known of the tool beside warnings, at every swept pose
+  InteractionPublisher interaction_;
+  BodiesPublisher bodies_;
   sweep_guard_core::Guard guard_;
   Acknowledgements acknowledgements_;
   ThreadTop* top_ = nullptr;

@@ -51,7 +51,7 @@ void GuardThread::apply(const std::shared_ptr<const Parameters>& next) {
   const auto exchange = [&, tested = change.detector != nullptr] {
     requireUnchanged(*before);
     steps_.guard().exchange(change);
-    if (shapes) steps_.publishers().setTool(*next, *shapes);
+    if (shapes) steps_.setTool(*next, *shapes);
     if (tested) dependencies_.monitor.detectorTested({});
     dependencies_.monitor.setLimits(next->limits);
     dependencies_.statistics.setCycle(next->guard.cycle);
@@ -114,7 +114,7 @@ void GuardThread::exchangeTool(const std::shared_ptr<const Parameters>& before,
     steps_.forget();
     steps_.guard().exchange(change);
     dependencies_.intentions.clear();
-    steps_.publishers().setTool(*next, shapes);
+    steps_.setTool(*next, shapes);
     dependencies_.scene.setTool(*next->bodies);
   };
   runInTime(exchange, "the tool is as before");

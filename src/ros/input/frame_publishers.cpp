@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sweep_guard/common/printable.h"
+#include "sweep_guard/common/stamped_pose.h"
 #include "sweep_guard/geometry/motion.h"
 #include "sweep_guard/prediction/jump.h"
 
@@ -34,15 +35,12 @@ struct Difference {
   Moved curvature;
 };
 
-struct Speed {
-  Eigen::Vector3d translation;  // [m/s]
-  Eigen::Vector3d turn;         // [rad/s]
-};
-
-Speed speedBetween(const Transform& from, const Transform& to) {
+sweep_guard_core::Vector6d speedBetween(const Transform& from, const Transform& to) {
   const double seconds = toSeconds(to.stamp - from.stamp);
   const Eigen::AngleAxisd turn(from.X_PF.linear().transpose() * to.X_PF.linear());
-  return {(to.X_PF.translation() - from.X_PF.translation()) / seconds, turn.angle() / seconds * turn.axis()};
+  sweep_guard_core::Vector6d speed;
+  speed << (to.X_PF.translation() - from.X_PF.translation()) / seconds, turn.angle() / seconds * turn.axis();
+  return speed;
 }
 
 // The straight motion between samples errs by at most an eighth of the acceleration times the square of the period. Twice that, for
@@ -50,12 +48,11 @@ Speed speedBetween(const Transform& from, const Transform& to) {
 std::optional<Moved> curvatureOf(const Samples& samples, size_t i) {
   const bool has_next = i + 1 < samples.size();
   if (!has_next && i < 2) return std::nullopt;
-  const Speed speed = speedBetween(samples[i - 1], samples[i]);
-  const Speed beside =
-      has_next ? speedBetween(samples[i], samples[i + 1]) : speedBetween(samples[i - 2], samples[i - 1]);
+  const sweep_guard_core::Vector6d change =
+      (has_next ? speedBetween(samples[i], samples[i + 1]) : speedBetween(samples[i - 2], samples[i - 1])) -
+      speedBetween(samples[i - 1], samples[i]);
   const double period = toSeconds(samples[i].stamp - samples[i - 1].stamp);
-  return Moved{(beside.translation - speed.translation).norm() * period / 4.0,
-               (beside.turn - speed.turn).norm() * period / 4.0};
+  return Moved{change.head<3>().norm() * period / 4.0, change.tail<3>().norm() * period / 4.0};
 }
 
 // Returns how far a node places the frame from where another one does at a stamp; empty: not known.

@@ -41,6 +41,15 @@ std::string sourceOf(const ros::NodeHandle& node, const Parameters& parameters) 
   return parameters.articulated ? pose + " and " + joints : pose;
 }
 
+std::vector<sweep_guard_core::ToolJumps::Joint> jointsOf(const Parameters& parameters) {
+  std::vector<sweep_guard_core::ToolJumps::Joint> joints;
+  if (!parameters.articulated) return joints;
+  const sweep_guard_core::KinematicTree& tree = parameters.robot->robot.tree;
+  for (const sweep_guard_core::JointVariable& variable : tree.variables())
+    joints.push_back({variable.name, tree.turns(joints.size()), variable.velocity});
+  return joints;
+}
+
 }  // namespace
 
 PoseInput::PoseInput(const ros::NodeHandle& node, const LiveParameters& live, const PoseInputDependencies& dependencies)
@@ -52,10 +61,10 @@ PoseInput::PoseInput(const ros::NodeHandle& node, const LiveParameters& live, co
       frames_(dependencies.frames),
       monitor_(dependencies.monitor),
       queue_(dependencies.queue),
-      jumps_(live),
+      jumps_(tool_frame_, fixed_frame_, jointsOf(live.initial())),
       moving_frames_(fixed_frame_, {frames_, dependencies.frame_motions, monitor_, queue_, record_}),
       late_(live, frames_),
-      path_(fixed_frame_, {frames_, dependencies.workpieces, moving_frames_}) {
+      path_(fixed_frame_, frames_, dependencies.workpieces, moving_frames_) {
   frames_moved_ = frames_.onMove([this] { onFramesMoved(); });
   if (live.initial().articulated) {
     articulated_ = std::make_unique<ArticulatedTool>(live);
@@ -124,8 +133,12 @@ void PoseInput::pushKnownPoses(sweep_guard_core::SteadyTime received, const Chec
   }
 }
 
+// The state is the last of the poses that the motion to it was cut into.
 std::string PoseInput::jumpTo(const sweep_guard_core::PoseWithFrames& state) {
-  std::string jump = jumps_.jumpTo(state);
+  const auto newest = live_.get();  // limits may change
+  const sweep_guard_core::PredictorOptions& limits = newest->guard.predictor;
+  std::string jump =
+      jumps_.add({state.stamp, state.X_WT, state.state.positions}, {limits.max_speed, limits.max_turn_rate});
   const std::string faster = jumps_.faster();
   if (!faster.empty()) record_.warn(faster);
   return jump;

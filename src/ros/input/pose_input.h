@@ -12,10 +12,10 @@
 #include "guard/workpiece_store.h"
 #include "monitor/input_record.h"
 #include "monitor/work_queue.h"
+#include "prediction/tool_jumps.h"
 #include "ros/connection/bounded.h"
 #include "ros/input/articulated_tool.h"
 #include "ros/input/frames.h"
-#include "ros/input/jump_watch.h"
 #include "ros/input/late_poses.h"
 #include "ros/input/moving_frames.h"
 #include "ros/input/tool_path.h"
@@ -83,8 +83,8 @@ class PoseInput {
   sweep_guard_core::WarningMonitor& monitor_;
   sweep_guard_core::WorkQueue& queue_;
 
-  Checkpoint checkpoint_;  // of the previous input
-  JumpWatch jumps_;
+  Checkpoint checkpoint_;                                 // of the previous input
+  sweep_guard_core::ToolJumps jumps_;                     // in the states that come in
   std::optional<sweep_guard_core::Time> last_transform_;  // used by the tf listener's thread only
   std::string publisher_;                                 // of the previous pose
   std::uint32_t sequence_ = 0;                            // of the previous pose

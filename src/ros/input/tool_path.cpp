@@ -78,7 +78,7 @@ void ToolPath::repeat(std::set<std::string> frames, const Checkpoint& checkpoint
   sweep_guard_core::PlacedAnew placed_anew;
   placed_anew.frames = std::move(frames);
   placed_anew.tool = movePath();
-  const MovingFrames::Poses X_WM = dependencies_.moving_frames.resting(*workpiece_frames_);
+  const MovingFrames::Poses X_WM = moving_frames_.resting(*workpiece_frames_);
   placed_anew.frames.merge(movedFrames(path_.front().pose.X_WM, X_WM));
   const sweep_guard_core::SteadyTime received = path_.back().pose.received;
   for (size_t i = 0; i < path_.size(); ++i) {
@@ -93,7 +93,7 @@ void ToolPath::repeat(std::set<std::string> frames, const Checkpoint& checkpoint
   }
   placed_ = path_.back();
   placed_.pose.anew.reset();
-  placed_.X_WF = dependencies_.frames.find(fixed_frame_, placed_.frame, repeat_at_);
+  placed_.X_WF = frames_.find(fixed_frame_, placed_.frame, repeat_at_);
 }
 
 void ToolPath::clear() {
@@ -102,16 +102,16 @@ void ToolPath::clear() {
 }
 
 void ToolPath::useWorkpieceFrames() {
-  const auto frames = dependencies_.workpieces.frames();
+  const auto frames = workpieces_.frames();
   if (frames == workpiece_frames_) return;
   workpiece_frames_ = frames;
-  dependencies_.frames.use("workpieces", fixed_frame_, *frames);
+  frames_.use("workpieces", fixed_frame_, *frames);
 }
 
 void ToolPath::placeFrames(PoseWithFrames& pose, const std::string& frame, const Checkpoint& checkpoint) {
   if (placed_.X_WF) pose.stamp = std::max(pose.stamp, placed_.pose.stamp);  // after a change that was applied late
-  pose.X_WM = dependencies_.moving_frames.locate(*workpiece_frames_, pose.stamp);
-  placed_.X_WF = dependencies_.frames.find(fixed_frame_, frame, pose.stamp);
+  pose.X_WM = moving_frames_.locate(*workpiece_frames_, pose.stamp);
+  placed_.X_WF = frames_.find(fixed_frame_, frame, pose.stamp);
   placed_.frame = frame;
   placed_.checkpoint = checkpoint;
   placed_.pose = pose;
@@ -122,7 +122,7 @@ bool ToolPath::movePath() {
   bool moved = false;
   Eigen::Isometry3d motion_W = Eigen::Isometry3d::Identity();
   for (auto placed = path_.rbegin(); placed != path_.rend(); ++placed) {
-    const auto X_WF = dependencies_.frames.find(fixed_frame_, placed->frame, placed->pose.stamp);
+    const auto X_WF = frames_.find(fixed_frame_, placed->frame, placed->pose.stamp);
     if (X_WF && placed->X_WF) {
       const bool rests = X_WF->matrix() == placed->X_WF->matrix();
       motion_W = rests ? Eigen::Isometry3d::Identity() : *X_WF * placed->X_WF->inverse();

@@ -18,12 +18,6 @@
 
 namespace sweep_guard_ros {
 
-struct ToolPathDependencies {
-  Frames& frames;
-  const sweep_guard_core::WorkpieceStore& workpieces;
-  MovingFrames& moving_frames;
-};
-
 /// Adds the frames of the workpieces to poses of the tool, which are queued then. After a static transform has changed, the path
 /// to the next pose is swept where things were, then where they are: place() gives it in the old place, the caller applies the
 /// changes, repeat() gives it in the new one. Several changes count as one. One thread.
@@ -31,8 +25,9 @@ class ToolPath {
  public:
   using Checkpoint = sweep_guard_core::WarningMonitor::Checkpoint;
 
-  ToolPath(const std::string& fixed_frame, const ToolPathDependencies& dependencies)
-      : fixed_frame_(fixed_frame), dependencies_(dependencies) {}
+  ToolPath(const std::string& fixed_frame, Frames& frames, const sweep_guard_core::WorkpieceStore& workpieces,
+           MovingFrames& moving_frames)
+      : fixed_frame_(fixed_frame), frames_(frames), workpieces_(workpieces), moving_frames_(moving_frames) {}
 
   /// Notes an input that is accepted, before it is placed.
   /// @param static_changes  as Frames counted them when it was received
@@ -75,7 +70,9 @@ class ToolPath {
   bool movePath();
 
   const std::string fixed_frame_;
-  const ToolPathDependencies dependencies_;
+  Frames& frames_;
+  const sweep_guard_core::WorkpieceStore& workpieces_;
+  MovingFrames& moving_frames_;
   std::shared_ptr<const std::set<std::string>> workpiece_frames_;  // that are in use
   std::uint64_t static_changes_ = 0;                               // by the newest input
   std::optional<sweep_guard_core::Time> newest_stamp_;             // of all inputs
