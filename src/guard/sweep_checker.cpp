@@ -125,7 +125,7 @@ SweepResult& SweepChecker::check(Detector& detector, const SweepRequest& request
         beat();
         detection_ = detector.detect(at->above.submesh, body.volume_M);
         inflation = detection_.inflation;
-        HullFilter(body, request.mesh.mesh_M(), inflation).removeLeftOut(detection_.triangles);
+        removeMissedByHull(body, request.mesh.mesh_M(), detection_);
         addCandidates(*node.piece, request.contact.allows(*node.piece));
       } else if (const auto met = trianglesMet(body.volume_M, at->above)) {
         walk.goBelow(node.below, *met);
