@@ -92,15 +92,15 @@ void keep(const Transform& transform, Samples& samples) {
 
 void FramePublishers::add(const std::string& frame, const std::string& node, const Transform& transform,
                           SteadyTime received) {
-  Frame& published = frames_[frame];
-  Node& newest = nodeOf(node, received, published);
-  if (published.nodes.size() == 1) newest.samples.clear();
+  std::vector<Node>& nodes = nodes_[frame];
+  Node& newest = nodeOf(node, received, nodes);
+  if (nodes.size() == 1) newest.samples.clear();
   keep(transform, newest.samples);
   const std::uint64_t previous = newest.number;
   const bool goes_on = previous > 0 && received - newest.received <= kByTurns;
-  newest.number = ++published.count;
+  newest.number = ++count_;
   newest.received = received;
-  for (const Node& other : published.nodes) {
+  for (const Node& other : nodes) {
     if (&other == &newest) continue;
     if (goes_on && other.number > previous) newest.by_turns = received;
     const SteadyTime last = std::max(newest.by_turns, other.by_turns);
@@ -109,8 +109,7 @@ void FramePublishers::add(const std::string& frame, const std::string& node, con
 }
 
 // Forgets those that are silent. Of more than there is room for, the newest takes the place of the one that was silent for longest.
-FramePublishers::Node& FramePublishers::nodeOf(const std::string& name, SteadyTime received, Frame& frame) {
-  auto& nodes = frame.nodes;
+FramePublishers::Node& FramePublishers::nodeOf(const std::string& name, SteadyTime received, std::vector<Node>& nodes) {
   if (nodes.size() == 1 && nodes[0].name == name) return nodes[0];
   const auto is_gone = [&](const Node& node) { return node.name != name && received - node.received > kByTurns; };
   nodes.erase(std::remove_if(nodes.begin(), nodes.end(), is_gone), nodes.end());
