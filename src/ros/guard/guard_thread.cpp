@@ -218,12 +218,6 @@ bool GuardThread::takeNext() {
   }
 }
 
-bool GuardThread::takeMore() {
-  next_ = 0;
-  dependencies_.queue.takePoses(work_.poses);
-  return !work_.poses.empty();
-}
-
 // Sweeps of queued poses go first, but delay the prediction by at most a cycle. It begins at a swept pose. One with other triangles
 // does not wait for its turn: those from before stand in for them only for a while.
 bool GuardThread::timeToPredict() const {
@@ -268,7 +262,11 @@ void GuardThread::predict() {
 // Sweeps the poses that wait. Returns false if one failed. It and those after it wait.
 bool GuardThread::sweepWaiting() {
   while (std::chrono::steady_clock::now() - predicted_at_ < kMaxInterrupted) {
-    if (next_ == work_.poses.size() && !takeMore()) return true;
+    if (next_ == work_.poses.size()) {
+      next_ = 0;
+      dependencies_.queue.takePoses(work_.poses);
+    }
+    if (work_.poses.empty()) return true;
     if (!takeNext()) return false;
   }
   return true;

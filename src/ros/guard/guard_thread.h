@@ -68,7 +68,6 @@ class GuardThread {
   bool takeWork();
   bool takeNext();
   void pauseAfterFailure();
-  bool takeMore();
   bool timeToPredict() const;
   bool predictIfDue();
   std::optional<sweep_guard_core::SteadyTime> latestPrediction() const;
