@@ -93,19 +93,19 @@ void PathInMesh::follow(const Tool& tool, const Eigen::Isometry3d& X_WT, const P
   assert(!path.empty() && frame.size() == path.size() + 1);
   begin(tool);
   const Eigen::Isometry3d* from_WT = &X_WT;
-  const auto add = [&](Duration ahead, const Matrix6d& covariance_W, const PredictedPose& at, double deviation) {
-    const Eigen::Isometry3d& X_WM = at.X_WT;
+  const auto add = [&](Duration ahead, const Matrix6d& covariance_W, const PredictedPose& moved, double deviation) {
+    const Eigen::Isometry3d& X_WM = moved.X_WT;
     path_M_.push_back({ahead, X_WM.inverse() * *from_WT, deviation});
-    const Matrix6d both_W = covariance_W + movedTo(from_WT->translation() - X_WM.translation(), at.covariance);
+    const Matrix6d both_W = covariance_W + movedTo(from_WT->translation() - X_WM.translation(), moved.covariance);
     covariances_M_.push_back(turnedCovariance(both_W, X_WM.linear().transpose()));
   };
   add(Duration::zero(), Matrix6d::Zero(), frame[0], 0.0);
   for (size_t i = 0; i < path.size(); ++i) {
-    const PredictedPose& at = frame[i + 1];
-    deviations_.push_back(path[i].deviation_bound + at.deviation_bound);
-    steps_W_.push_back({{*from_WT, path[i].X_WT, deviations_.back()}, {frame[i].X_WT, at.X_WT}});
+    const PredictedPose& moved = frame[i + 1];
+    deviations_.push_back(path[i].deviation_bound + moved.deviation_bound);
+    steps_W_.push_back({{*from_WT, path[i].X_WT, deviations_.back()}, {frame[i].X_WT, moved.X_WT}});
     from_WT = &path[i].X_WT;
-    add(path[i].ahead, path[i].covariance, at, chordError(steps_W_.back(), tool_radius_) + deviations_.back());
+    add(path[i].ahead, path[i].covariance, moved, chordError(steps_W_.back(), tool_radius_) + deviations_.back());
   }
 }
 
