@@ -71,7 +71,7 @@ class QuerySampler {
   bool stopping_ GUARDED_BY(mutex_) = false;
 };
 
-/// Returns a detector that asks another one, by this name, and offers each answer to a sampler, which must outlive it.
+/// Returns the detector, which offers each of its answers to a sampler from now on, under this name. The sampler must outlive it.
 std::unique_ptr<Detector> sampled(std::unique_ptr<Detector> detector, const std::string& name, QuerySampler& sampler);
 
 /// Triangles that detectors disagree about by more than their inflations: ascending.

@@ -99,6 +99,7 @@ class World {
       sweep_guard_core::PoseWithFrames pose;
       pose.stamp = now.stamp + milliseconds(10 * (i - 3));
       pose.X_WT.translation() = Eigen::Vector3d(0.0, 0.0, -0.2 + 0.01 * i);
+      pose.bodies = {{pose.X_WT}};
       pose.X_WM["world"] = Eigen::Isometry3d::Identity();
       guard_.sweep(pose, store_.snapshot(), report);
     }

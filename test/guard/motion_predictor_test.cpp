@@ -44,6 +44,7 @@ PoseWithFrames poseAt(const Robot& robot, double seconds, const RobotState& stat
   PoseWithFrames pose{atSecond(1000.0 + seconds), {}, state.X_WR};
   std::vector<Eigen::Isometry3d> X_WB;
   bodyPoses(robot.tree, robot.bodies, state, X_WB);
+  pose.bodies.clear();
   for (const Eigen::Isometry3d& X : X_WB) pose.bodies.push_back({X});
   pose.state = state;
   return pose;

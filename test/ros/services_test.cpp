@@ -100,6 +100,7 @@ class ServicesTest : public ::testing::Test {
     pose.stamp = now().stamp;
     pose.received = now().steady;
     pose.X_WT.translation().z() = height;
+    pose.bodies = {{pose.X_WT}};
     pose.X_WM["world"] = Eigen::Isometry3d::Identity();
     queue_.push({pose, monitor_.checkpoint()});
   }

@@ -39,7 +39,7 @@ void ArticulatedTool::add(const std::string& publisher, const sensor_msgs::Joint
 void ArticulatedTool::add(Time stamp, const Eigen::Isometry3d& X_WT) { timeline_.addRoot(stamp, X_WT * model_->X_TR); }
 
 bool ArticulatedTool::next(const std::function<std::optional<Eigen::Isometry3d>(Time)>& X_WT,
-                           std::vector<Pose>& poses) {
+                           std::vector<sweep_guard_core::PoseWithFrames>& poses) {
   poses.clear();
   const auto stamp = next_stamp_ ? std::exchange(next_stamp_, {}) : timeline_.next(next_);
   if (!stamp) return false;
@@ -68,11 +68,13 @@ bool ArticulatedTool::next(const std::function<std::optional<Eigen::Isometry3d>(
   return true;
 }
 
-void ArticulatedTool::place(Time stamp, const sweep_guard_core::RobotState& state, std::vector<Pose>& poses) {
+void ArticulatedTool::place(Time stamp, const sweep_guard_core::RobotState& state,
+                            std::vector<sweep_guard_core::PoseWithFrames>& poses) {
   bodyPoses(model_->robot.tree, model_->robot.bodies, state, X_WB_);
-  Pose& pose = poses.emplace_back();
+  sweep_guard_core::PoseWithFrames& pose = poses.emplace_back();
   pose.stamp = stamp;
   pose.X_WT = state.X_WR * model_->X_TR.inverse();
+  pose.bodies.clear();
   for (const Eigen::Isometry3d& X_WB : X_WB_) pose.bodies.push_back({X_WB});
   pose.state = state;
 }

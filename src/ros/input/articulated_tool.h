@@ -20,14 +20,6 @@ namespace sweep_guard_ros {
 /// keep every body within 0.5 mm of how Motion joins them. One thread.
 class ArticulatedTool {
  public:
-  struct Pose {
-    sweep_guard_core::Time stamp;
-    Eigen::Isometry3d X_WT;
-    std::vector<sweep_guard_core::BodyPose> bodies;
-    sweep_guard_core::RobotState state;
-    std::string jump = {};  ///< as of PoseWithFrames
-  };
-
   /// @param live  with an articulated tool; its bodies may change, its joints do not
   explicit ArticulatedTool(const LiveParameters& live);
 
@@ -40,10 +32,10 @@ class ArticulatedTool {
   /// Computes the poses up to the next state that is known; the last one is that of the state.
   /// @param X_WT        returns the pose of the tool frame at a time, with ToolSource::kJointStates; empty: the state waits for it.
   ///                    If it throws, the state is left out: the motion goes straight past it
-  /// @param[out] poses  overwritten
+  /// @param[out] poses  overwritten; without frames, nor when they were received
   /// @returns false if no other state is known yet
   bool next(const std::function<std::optional<Eigen::Isometry3d>(sweep_guard_core::Time)>& X_WT,
-            std::vector<Pose>& poses);
+            std::vector<sweep_guard_core::PoseWithFrames>& poses);
 
   /// Returns whether the newest poses from next() go straight past positions that were dropped.
   bool leavesOut() const { return timeline_.leavesOut(); }
@@ -61,7 +53,8 @@ class ArticulatedTool {
   void reset();  ///< forgets all positions
 
  private:
-  void place(sweep_guard_core::Time stamp, const sweep_guard_core::RobotState& state, std::vector<Pose>& poses);
+  void place(sweep_guard_core::Time stamp, const sweep_guard_core::RobotState& state,
+             std::vector<sweep_guard_core::PoseWithFrames>& poses);
 
   ArticulatedTool(const LiveParameters& live, const Parameters& parameters);
   const LiveParameters& live_;

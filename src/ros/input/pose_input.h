@@ -12,10 +12,10 @@
 #include "guard/workpiece_store.h"
 #include "monitor/input_record.h"
 #include "monitor/work_queue.h"
+#include "prediction/tool_jumps.h"
 #include "ros/connection/bounded.h"
 #include "ros/input/articulated_tool.h"
 #include "ros/input/frames.h"
-#include "ros/input/jump_watch.h"
 #include "ros/input/late_poses.h"
 #include "ros/input/moving_frames.h"
 #include "ros/input/tool_path.h"
@@ -35,7 +35,7 @@ struct PoseInputDependencies {
 };
 
 /// Takes tool poses from the topic `tool_pose` or from tf, and positions of joints from `joint_states`, and refuses bad
-/// ones. LatePoses locates the poses in the fixed frame, ToolPath queues them.
+/// ones. LatePoses locates the poses in the fixed frame, ToolPath adds the frames of the workpieces; then they are queued.
 class PoseInput {
  public:
   PoseInput(const ros::NodeHandle& node, const LiveParameters& live, const PoseInputDependencies& dependencies);
@@ -53,31 +53,25 @@ class PoseInput {
  private:
   using Checkpoint = sweep_guard_core::WarningMonitor::Checkpoint;
 
-  // What was so when an input was received.
-  struct Receipt {
-    Checkpoint checkpoint;         // taken first: a pose that does not know of a change does not end its fault
-    std::uint64_t static_changes;  // as Frames counts them
-  };
   void onMessage(const ros::MessageEvent<const geometry_msgs::PoseStamped>& event);
   void countLost(const std::string& publisher, std::uint32_t sequence);
   bool hasSeveralPublishers() const;
   void reportConflict();
   void onTransforms();
-  template <typename Accept>
-  void refuseWhatFails(const Accept& accept);
-  void accept(ReceivedPose pose, const Receipt& receipt);
+  void accept(const ReceivedPose& pose);
   void acceptJoints(const ros::MessageEvent<const sensor_msgs::JointState>& event);
-  Receipt receipt() const;
-  void begin(const Receipt& receipt);
+  void begin(const Checkpoint& checkpoint);
   void onFramesMoved();
   void pushWaiting();
   void pushAllWaiting();
-  void pushLocated(const LocatedPose& pose);
+  void pushLocated(const sweep_guard_core::QueuedPose& located);
   void pushKnownPoses(sweep_guard_core::SteadyTime received, const Checkpoint& checkpoint);
   void push(sweep_guard_core::SteadyTime received, const Checkpoint& checkpoint);
   void reportSilence(sweep_guard_core::Time stamp);
+  void repeat(sweep_guard_core::Time changed_from, const Checkpoint& checkpoint);
   std::set<std::string> applyStaticChanges(sweep_guard_core::Time from);
-  std::string jumpTo(const ArticulatedTool::Pose& state);
+  std::string jumpTo(const sweep_guard_core::PoseWithFrames& state);
+  void refuseCaught();
   void refuse(sweep_guard_core::Reason reason, const std::string& message);
 
   const std::string fixed_frame_;
@@ -87,9 +81,10 @@ class PoseInput {
   const LiveParameters& live_;
   Frames& frames_;
   sweep_guard_core::WarningMonitor& monitor_;
+  sweep_guard_core::WorkQueue& queue_;
 
-  Checkpoint checkpoint_;  // of the previous input
-  JumpWatch jumps_;
+  Checkpoint checkpoint_;                                 // of the previous input
+  sweep_guard_core::ToolJumps jumps_;                     // in the states that come in
   std::optional<sweep_guard_core::Time> last_transform_;  // used by the tf listener's thread only
   std::string publisher_;                                 // of the previous pose
   std::uint32_t sequence_ = 0;                            // of the previous pose
@@ -101,8 +96,9 @@ class PoseInput {
   LatePoses late_;
   ToolPath path_;
 
-  std::unique_ptr<ArticulatedTool> articulated_;  // null for a rigid tool
-  std::vector<ArticulatedTool::Pose> known_;      // up to the newest state or pose
+  std::unique_ptr<ArticulatedTool> articulated_;         // null for a rigid tool
+  std::vector<sweep_guard_core::PoseWithFrames> known_;  // up to the newest state or pose
+  std::vector<sweep_guard_core::QueuedPose> placed_;     // the same, to be queued
 
   QueueThread thread_;  // before the subscribers, which use its queue
   std::shared_ptr<void> transforms_changed_;

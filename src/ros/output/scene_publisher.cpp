@@ -27,7 +27,7 @@ void ScenePublisher::swept(const sweep_guard_core::PoseWithFrames& pose,
                            std::shared_ptr<const sweep_guard_core::SweepReport> report) {
   const sweep_guard_core::Lock lock(mutex_);
   scene_.X_WT = pose.X_WT;
-  scene_.body_poses = pose.bodies;
+  if (parameters_.initial().articulated) scene_.body_poses.assign(pose.bodies.begin(), pose.bodies.end());
   scene_.trail.add(pose.stamp, pose.X_WT.translation());
   if (report->unintendedContact()) scene_.contact = report;
   scene_.newest = std::move(report);

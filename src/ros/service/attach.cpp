@@ -83,7 +83,7 @@ std::string AttachService::attach(const std::string& id, const std::string& link
   payload.X_WM = lookup(newest->frame, pose.stamp) * motionSince(*cut, *newest);
   const auto next = std::make_shared<const Parameters>(withPayload(*before, payload, pose));
   exchange_tool_(before, next, [&] {
-    dependencies_.workpieces.attach(cut, pose.body(bodyWithLink(*before, link)).X_WB.inverse() * payload.X_WM);
+    dependencies_.workpieces.attach(cut, pose.bodies[bodyWithLink(*before, link)].X_WB.inverse() * payload.X_WM);
     require(*next);
   });
   return "'" + id + "' is part of the tool: " + std::to_string(payload.shapes_M.size()) + " convex piece(s) on " +
@@ -104,7 +104,7 @@ std::string AttachService::detach(const std::string& id) {
   const auto held = dependencies_.workpieces.attached(id);
   if (!held) throw InvalidInput("'" + id + "' is not attached");
   const PoseWithFrames pose = newestPose();
-  const Eigen::Isometry3d X_WB = pose.body(bodyWithLink(*before, id)).X_WB;
+  const Eigen::Isometry3d X_WB = pose.bodies[bodyWithLink(*before, id)].X_WB;
   const Eigen::Isometry3d X_MM = lookup(held->workpiece->frame, pose.stamp).inverse() * X_WB * held->X_BM;
   const auto next = std::make_shared<const Parameters>(withoutPayload(*before, id));
   exchange_tool_(before, next, [&, restored = movedBy(X_MM, *held->workpiece, pose)] {
