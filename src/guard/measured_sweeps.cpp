@@ -198,7 +198,7 @@ size_t MeasuredSweeps::beginMotion(const SweepSetup& setup, const PoseHistory& h
   const double max_rotation = setup.options.max_rotation;
   size_t end = last;
   if (i < last)
-    end = first + endOfMergedMotion(path_M_, i - first, last - first, radius, {kMergeTolerance * radius, max_rotation});
+    end = first + endOfMergedMotion(path_M_, i - first, last - first, radius, kMergeTolerance * radius, max_rotation);
   if (end > i + 1) {
     sub_motions_M_.assign(1, mergedMotion(path_M_, i - first, end - first, radius));
   } else {
