@@ -21,13 +21,13 @@ double angleBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
   return Eigen::Quaterniond(a.linear()).angularDistance(Eigen::Quaterniond(b.linear()));
 }
 
-void addErrors(const PredictionErrorRequest& request, sweep_guard_core::Time stamp, const PredictedPath& path,
-               std::vector<ErrorsAhead>& errors) {
-  for (size_t i = 0; i < request.horizons.size(); ++i) {
+void addErrors(const RecordedMotion& motion, const std::vector<Duration>& horizons, sweep_guard_core::Time stamp,
+               const PredictedPath& path, std::vector<ErrorsAhead>& errors) {
+  for (size_t i = 0; i < horizons.size(); ++i) {
     errors[i].position.push_back(std::numeric_limits<float>::quiet_NaN());
     errors[i].rotation.push_back(std::numeric_limits<float>::quiet_NaN());
     if (path.empty()) continue;
-    const Eigen::Isometry3d measured = request.motion.at(stamp + request.horizons[i]);
+    const Eigen::Isometry3d measured = motion.at(stamp + horizons[i]);
     errors[i].position.back() = static_cast<float>((path[i].X_WT.translation() - measured.translation()).norm());
     errors[i].rotation.back() = static_cast<float>(angleBetween(path[i].X_WT, measured));
   }
@@ -63,17 +63,18 @@ std::vector<size_t> samplesOf(const std::vector<StampedPose>& poses, const Recor
   return samples;
 }
 
-std::vector<ErrorsAhead> predictionErrors(const PredictionErrorRequest& request, const Progress& progress) {
-  const std::vector<StampedPose>& poses = request.poses;
-  sweep_guard_core::PosePredictor predictor(request.predictor);
+std::vector<ErrorsAhead> predictionErrors(const SampledMotion& sampled, const std::vector<Duration>& horizons,
+                                          const sweep_guard_core::PredictorOptions& options, const Progress& progress) {
+  const std::vector<StampedPose>& poses = sampled.poses;
+  sweep_guard_core::PosePredictor predictor(options);
   sweep_guard_core::PredictedPath path;
-  std::vector<ErrorsAhead> errors(request.horizons.size());
-  auto sample = request.samples.begin();
+  std::vector<ErrorsAhead> errors(horizons.size());
+  auto sample = sampled.samples.begin();
   for (size_t i = 0; i < poses.size(); ++i) {
     predictor.observe(poses[i]);
-    if (sample != request.samples.end() && *sample == i) {
-      predictor.predict(request.horizons, path);
-      addErrors(request, poses[i].stamp, path, errors);
+    if (sample != sampled.samples.end() && *sample == i) {
+      predictor.predict(horizons, path);
+      addErrors(sampled.motion, horizons, poses[i].stamp, path, errors);
       ++sample;
     }
     if ((i + 1) % kProgressStep == 0) progress(kProgressStep);

@@ -45,7 +45,7 @@ class ProximityFinder::Search {
   template <typename Part>
   bool processPart(const WaitingPart& waiting, const Part& part);
   bool processTriangle(const WaitingPart& waiting);
-  void open(const WaitingPart& waiting, WholeMesh all, const CenteredBox& box);
+  void open(const WaitingPart& waiting, const MeshOrder& mesh, const CenteredBox& box);
   void open(const WaitingPart& waiting, const ClusterGroup& group, const CenteredBox& box);
   void open(const WaitingPart& waiting, const Cluster& cluster, const CenteredBox& box);
 
@@ -75,7 +75,7 @@ void ProximityFinder::Search::begin() {
   facings_.begin(*request_, found_->unplaced);
   for (std::uint32_t i = 0; i < facings_.size(); ++i) {
     const Facing& facing = facings_[i];
-    const CenteredBox box(facing.surface->boxes.of(WholeMesh()));
+    const CenteredBox box(facing.surface->boxes.of(facing.mesh().order()));
     push({facing.cover.distance(box), i, 0, 0, Kind::kMesh});
     pushIntended(i);
   }
@@ -119,7 +119,7 @@ bool ProximityFinder::Search::process(const WaitingPart& waiting) {
   const MeshOrder& order = facings_[waiting.facing].mesh().order();
   switch (waiting.kind) {
     case Kind::kMesh:
-      return processPart(waiting, WholeMesh());
+      return processPart(waiting, order);
     case Kind::kGroup:
       return processPart(waiting, order.groups[waiting.index]);
     case Kind::kCluster:
@@ -143,11 +143,10 @@ bool ProximityFinder::Search::processPart(const WaitingPart& waiting, const Part
   return true;
 }
 
-void ProximityFinder::Search::open(const WaitingPart& waiting, WholeMesh /*all*/, const CenteredBox& /*box*/) {
+void ProximityFinder::Search::open(const WaitingPart& waiting, const MeshOrder& mesh, const CenteredBox& /*box*/) {
   const Facing& facing = facings_[waiting.facing];
-  const auto& groups = facing.mesh().order().groups;
-  for (std::uint32_t i = 0; i < groups.size(); ++i) {
-    const CenteredBox box(facing.surface->boxes.of(groups[i]));
+  for (std::uint32_t i = 0; i < mesh.groups.size(); ++i) {
+    const CenteredBox box(facing.surface->boxes.of(mesh.groups[i]));
     push({std::max(waiting.bound, facing.cover.distance(box)), waiting.facing, i, 0, Kind::kGroup});
   }
 }

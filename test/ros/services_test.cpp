@@ -170,10 +170,11 @@ class ServicesTest : public ::testing::Test {
   Frames frames_{ros::NodeHandle(), parameters_.initial().max_message_size, [](const auto&, const auto&) {}};
   CrossCheckThread cross_check_{parameters_, monitor_};
   GuardThread guard_thread_{node_, dependenciesWith(parameters_)};
-  PathTests path_tests_{{parameters_, frames_, workpieces_, monitor_, /*frame_motions=*/nullptr,
-                         [this](const auto& /*name*/, const auto& /*options*/) {
-                           return std::make_unique<sweep_guard_core::FakeDetector>(path_detector_record_);
-                         }}};
+  PathTests path_tests_{{parameters_, frames_, workpieces_, monitor_},
+                        /*frame_motions=*/nullptr,
+                        [this](const auto& /*name*/, const auto& /*options*/) {
+                          return std::make_unique<sweep_guard_core::FakeDetector>(path_detector_record_);
+                        }};
   PathService check_sweep_{node_, "check_sweep", service_threads_, path_tests_, sweep_guard_ros::checkSweep};
   Controls controls_{
       node_,

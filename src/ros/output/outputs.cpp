@@ -15,6 +15,10 @@ sweep_guard_core::Duration markerPeriod(const Parameters& parameters) {
   return sweep_guard_core::fromSeconds(1.0 / parameters.marker_rate);
 }
 
+ServiceDependencies dependenciesIn(GuardState& state) {
+  return {state.parameters, state.frames, state.workpieces, state.monitor};
+}
+
 }  // namespace
 
 Outputs::Outputs(const ros::NodeHandle& node, const ros::NodeHandle& private_node, GuardState& state,
@@ -23,7 +27,7 @@ Outputs::Outputs(const ros::NodeHandle& node, const ros::NodeHandle& private_nod
       guard_(guard),
       marker_timer_(
           reports_.every(markerPeriod(state.parameters.initial()), [&state] { state.scene.publishMarkers(); })),
-      path_tests_({state.parameters, state.frames, state.workpieces, state.monitor, &state.frame_motions}),
+      path_tests_(dependenciesIn(state), &state.frame_motions),
       check_sweep_(private_node, "check_sweep", service_threads_, path_tests_, checkSweep),
       check_trajectory_(private_node, "check_trajectory", service_threads_, path_tests_, checkTrajectory),
       predict_(private_node, service_threads_, state.parameters, state.workpieces,
@@ -32,10 +36,9 @@ Outputs::Outputs(const ros::NodeHandle& node, const ros::NodeHandle& private_nod
                 {[&guard] { guard.thread().reset(); },
                  [&guard](const std::string& id) { return guard.thread().acknowledge(id); },
                  [&state] { state.touches.reset(); }}),
-      intend_(private_node, service_threads_, {state.parameters, state.frames, state.workpieces, state.intentions}),
+      intend_(private_node, service_threads_, dependenciesIn(state), state.intentions),
       attach_(
-          private_node, service_threads_, {state.parameters, state.frames, state.workpieces, state.monitor},
-          [&guard] { return guard.thread().newestPose(); },
+          private_node, service_threads_, dependenciesIn(state), [&guard] { return guard.thread().newestPose(); },
           [&guard](const auto& before, const auto& next, const auto& also) {
             guard.thread().exchangeTool(before, next, also);
           }),

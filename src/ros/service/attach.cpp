@@ -51,7 +51,8 @@ Workpiece movedBy(const Eigen::Isometry3d& X_MM, const Workpiece& held, const Po
 }  // namespace
 
 AttachService::AttachService(const ros::NodeHandle& private_node, ServiceThreads& threads,
-                             const AttachDependencies& dependencies, NewestPose newest_pose, ExchangeTool exchange_tool)
+                             const ServiceDependencies& dependencies, NewestPose newest_pose,
+                             ExchangeTool exchange_tool)
     : dependencies_(dependencies),
       newest_pose_(std::move(newest_pose)),
       exchange_tool_(std::move(exchange_tool)),

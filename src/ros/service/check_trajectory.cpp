@@ -1,7 +1,6 @@
 #include "ros/service/check_trajectory.h"
 
 #include <algorithm>
-#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -71,24 +70,6 @@ std::vector<Eigen::Isometry3d> moved(const Eigen::Isometry3d& X_MT, const std::v
   return X_MB;
 }
 
-// Where a body first collides.
-struct Collision {
-  size_t segment;
-  double fraction;
-  size_t path;  // of the question
-  std::optional<size_t> piece;
-};
-
-Collision collisionOf(const PathResult& result, size_t path, const RobotPath& robot_path) {
-  if (robot_path.places.empty()) return {0, 0.0, path, result.piece};
-  const auto& [segment, from, to] = robot_path.places[*result.first_contact];
-  return {segment, from + result.time_of_impact.value_or(0.0) * (to - from), path, result.piece};
-}
-
-bool isEarlier(const Collision& a, const Collision& b) {
-  return std::tie(a.segment, a.fraction) < std::tie(b.segment, b.fraction);
-}
-
 // Adds what one body meets of a workpiece to what other bodies meet.
 void add(sweep_guard::ObjectContacts&& body, std::vector<sweep_guard::ObjectContacts>& objects) {
   const auto same = [&](const auto& object) { return object.mesh_id == body.mesh_id; };
@@ -107,28 +88,36 @@ void add(sweep_guard::ObjectContacts&& body, std::vector<sweep_guard::ObjectCont
   known->inside = known->triangles.empty() && (known->inside || body.inside);
 }
 
+// Keeps the first collision of all bodies.
+void addCollision(const PathResult& result, const PathQuestion::Path& path, const RobotPath& robot_path,
+                  CheckTrajectory::Response& response) {
+  size_t segment = 0;
+  double fraction = 0.0;
+  if (!robot_path.places.empty()) {
+    const RobotPath::Place& place = robot_path.places[*result.first_contact];
+    segment = place.segment;
+    fraction = place.from + result.time_of_impact.value_or(0.0) * (place.to - place.from);
+  }
+  if (response.collision && std::tie(response.segment, response.time_of_impact) <= std::tie(segment, fraction)) return;
+  response.collision = true;
+  response.segment = static_cast<std::uint32_t>(segment);
+  response.time_of_impact = fraction;
+  response.mesh_id = path.workpiece->id;
+  response.tool_link = result.piece ? path.tool->pieces()[*result.piece].link : "";
+}
+
 void fill(CheckTrajectory::Response& response, const PathQuestion& question, const RobotPath& robot_path,
           const std::vector<PathResult>& results) {
-  std::optional<Collision> first;
   for (size_t i = 0; i < results.size(); ++i) {
     const auto& [workpiece, tool, path_M, deviation_bounds] = question.paths[i];
     const sweep_guard_core::SweepResult& all = results[i].all;
     response.margin = std::max(response.margin, all.margin);
     if (!all.triangles.empty() || all.inside) add(toMsg(*workpiece, all, *tool), response.objects);
     if (!all.allowed.triangles.empty()) add(allowedMsg(*workpiece, all, *tool), response.allowed);
-    if (!results[i].first_contact) continue;
-    const Collision collision = collisionOf(results[i], i, robot_path);
-    if (!first || isEarlier(collision, *first)) first = collision;
+    if (results[i].first_contact) addCollision(results[i], question.paths[i], robot_path, response);
   }
   response.sweeps = static_cast<std::uint32_t>(std::max<size_t>(robot_path.places.size(), 1));
   response.deviation = robot_path.deviationBound();
-  response.collision = first.has_value();
-  if (!first) return;
-  response.segment = static_cast<std::uint32_t>(first->segment);
-  response.time_of_impact = first->fraction;
-  const PathQuestion::Path& path = question.paths[first->path];
-  response.mesh_id = path.workpiece->id;
-  if (first->piece) response.tool_link = path.tool->pieces()[*first->piece].link;
 }
 
 Eigen::Isometry3d toolPoseIn(const PathTests& tests, const std::string& mesh_frame,

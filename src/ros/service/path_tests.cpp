@@ -90,7 +90,7 @@ void PathTests::setParameters(const std::shared_ptr<const Parameters>& current) 
 sweep_guard_core::Detector& PathTests::detector(const std::string& name) {
   const auto made = detectors_.find(name);
   if (made != detectors_.end()) return *made->second;
-  auto detector = dependencies_.make_detector(name, parameters_->detector.options);
+  auto detector = make_detector_(name, parameters_->detector.options);
   const std::string failure = testFailure(*parameters_, name, *detector);
   if (!failure.empty()) throw sweep_guard_core::DeviceError(failure);
   return *detectors_.emplace(name, std::move(detector)).first->second;
@@ -127,13 +127,13 @@ Eigen::Isometry3d PathTests::transform(const std::string& mesh_frame, const std_
     return dependencies_.frames.lookup(target, header.frame_id, fromMsg(header.stamp), kTransformWait);
   };
   if (!isOfOtherTool(mesh_frame)) return lookup(mesh_frame);
-  const auto X_WM = dependencies_.frame_motions->newest(mesh_frame);
+  const auto X_WM = frame_motions_->newest(mesh_frame);
   if (!X_WM) throw sweep_guard_core::Error("it is not known where the other tool is");
   return X_WM->inverse() * lookup(dependencies_.parameters.initial().fixed_frame);
 }
 
 bool PathTests::isOfOtherTool(const std::string& frame) const {
-  return dependencies_.frame_motions != nullptr && dependencies_.frame_motions->expects(frame);
+  return frame_motions_ != nullptr && frame_motions_->expects(frame);
 }
 
 std::string PathTests::doubts(const PathQuestion& question, const std::vector<std::string>& ids,

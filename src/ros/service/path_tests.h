@@ -11,20 +11,18 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "guard/workpiece_store.h"
-#include "ros/input/frames.h"
-#include "ros/parameters/parameters.h"
 #include "ros/process/process.h"
 #include "ros/service/limited_calls.h"
+#include "ros/service/service_dependencies.h"
 #include "ros/service/service_threads.h"
 #include "ros/threads/background_thread.h"
 #include "sweep_guard/detection/detector.h"
 #include "sweep_guard/guard/frame_motion.h"
 #include "sweep_guard/guard/sweep.h"
 #include "sweep_guard/guard/workpiece.h"
-#include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {
 
@@ -52,21 +50,15 @@ struct PathQuestion {
   GoOn go_on;
 };
 
-struct PathTestDependencies {
-  const LiveParameters& parameters;
-  const Frames& frames;
-  const sweep_guard_core::WorkpieceStore& workpieces;
-  const sweep_guard_core::WarningMonitor& monitor;
-  const sweep_guard_core::FrameMotionStore* frame_motions = nullptr;  ///< of frames that tf does not have
-  MakeDetector make_detector = sweep_guard_core::makeDetector;
-};
-
 /// Sweeps paths against the workpieces as they are now, for the services that ask. Has a thread of its own, and detectors,
 /// each of which is tested when it is made. Works on a snapshot of the meshes, so it never delays the guard. A question is
 /// given up at its deadline, which counts from the arrival of the call.
 class PathTests {
  public:
-  explicit PathTests(const PathTestDependencies& dependencies) : dependencies_(dependencies) {}
+  /// @param frame_motions  of frames that tf does not have; null: there are none
+  PathTests(const ServiceDependencies& dependencies, const sweep_guard_core::FrameMotionStore* frame_motions,
+            MakeDetector make_detector = sweep_guard_core::makeDetector)
+      : dependencies_(dependencies), frame_motions_(frame_motions), make_detector_(std::move(make_detector)) {}
   PathTests(const PathTests&) = delete;
   PathTests& operator=(const PathTests&) = delete;
 
@@ -112,7 +104,9 @@ class PathTests {
   void setParameters(const std::shared_ptr<const Parameters>& current);
   sweep_guard_core::Detector& detector(const std::string& name);
 
-  const PathTestDependencies dependencies_;
+  const ServiceDependencies dependencies_;
+  const sweep_guard_core::FrameMotionStore* const frame_motions_;
+  const MakeDetector make_detector_;
   // Of the thread that sweeps:
   std::shared_ptr<const Parameters> parameters_;                                  // of the newest call
   std::map<std::string, std::unique_ptr<sweep_guard_core::Detector>> detectors_;  // by name, made on demand
