@@ -31,6 +31,16 @@ void requireStamp(sweep_guard_core::Time stamp) {
   if (liesInFuture(stamp)) throw PoseRefused(sweep_guard_core::kFutureStamp, kFutureStampText);
 }
 
+void requireStamp(sweep_guard_core::Time stamp, const std::string& joint) {
+  try {
+    requireStamp(stamp);
+  } catch (const PoseRefused& error) {
+    const bool is_zero = stamp == sweep_guard_core::Time();
+    throw PoseRefused(error.reason, "joint '" + sweep_guard_core::printable(joint) +
+                                        "': " + (is_zero ? "stamp is 0: stamp each message" : error.what()));
+  }
+}
+
 std::string sourceOf(const ros::NodeHandle& node, const Parameters& parameters) {
   const std::string frames = "tf " + parameters.fixed_frame + " to " + parameters.tool_frame;
   const std::string joints = node.resolveName(kJointsTopic);
@@ -41,20 +51,27 @@ std::string sourceOf(const ros::NodeHandle& node, const Parameters& parameters) 
 
 }  // namespace
 
+// Returns whether nothing failed.
 template <typename Accept>
-void PoseInput::refuseWhatFails(const Accept& accept) {
+bool PoseInput::refuseWhatFails(const Accept& accept, const std::string* sender) {
+  const auto refused = [&](Reason reason, const std::exception& error) {
+    const std::string from = sender == nullptr ? "" : "joint_states of " + sweep_guard_core::printable(*sender) + ": ";
+    refuse(reason, from + error.what());
+    return false;
+  };
   try {
     accept();
+    return true;
   } catch (const PoseRefused& error) {
-    refuse(error.reason, error.what());
+    return refused(error.reason, error);
   } catch (const FrameError& error) {
-    refuse(sweep_guard_core::kTfFail, error.what());
+    return refused(sweep_guard_core::kTfFail, error);
   } catch (const sweep_guard_core::SeveralPublishers& error) {
-    refuse(sweep_guard_core::kMultiPublisher, error.what());
+    return refused(sweep_guard_core::kMultiPublisher, error);
   } catch (const sweep_guard_core::OutOfOrder& error) {
-    refuse(sweep_guard_core::kOutOfOrder, error.what());
+    return refused(sweep_guard_core::kOutOfOrder, error);
   } catch (const std::exception& error) {  // InvalidInput, or out of memory
-    refuse(sweep_guard_core::kPoseInvalid, error.what());
+    return refused(sweep_guard_core::kPoseInvalid, error);
   }
 }
 
@@ -74,8 +91,7 @@ PoseInput::PoseInput(const ros::NodeHandle& node, const LiveParameters& live, co
   if (live.initial().articulated) {
     articulated_ = std::make_unique<ArticulatedTool>(live);
     joints_ = subscribeBounded<sensor_msgs::JointState>(
-        thread_.on(node), {kJointsTopic, kPosesQueued, kMaxJointsSize},
-        [this](const auto& event) { refuseWhatFails([&] { acceptJoints(event); }); },
+        thread_.on(node), {kJointsTopic, kPosesQueued, kMaxJointsSize}, [this](const auto& event) { onJoints(event); },
         [this](const std::string& reason) { refuse(sweep_guard_core::kPoseInvalid, reason); });
   }
   if (live.initial().tool_source == ToolSource::kTf) {
@@ -100,22 +116,39 @@ void PoseInput::onMessage(const ros::MessageEvent<const geometry_msgs::PoseStamp
   refuseWhatFails([&] { accept({timestamps, msg.header.frame_id, fromMsg(msg.pose)}, receipt()); });
 }
 
-void PoseInput::acceptJoints(const ros::MessageEvent<const sensor_msgs::JointState>& event) {
-  const sensor_msgs::JointState& msg = *event.getConstMessage();
-  const sweep_guard_core::Timestamps timestamps{fromMsg(msg.header.stamp), std::chrono::steady_clock::now()};
+void PoseInput::onJoints(const ros::MessageEvent<const sensor_msgs::JointState>& event) {
+  const sensor_msgs::JointState& joints = *event.getConstMessage();
+  const std::string* const named = articulated_->firstJointIn(joints);
+  named == nullptr ? passOver(joints) : acceptJoints(joints, event.getPublisherName(), *named);
+}
+
+// Its stamp says nothing of the tool, whose newest positions may still be on the way.
+void PoseInput::passOver(const sensor_msgs::JointState& joints) {
+  articulated_->noteForeign(joints);
+  reportSilence(now().stamp - live_.get()->limits.pose_timeout);
+}
+
+void PoseInput::acceptJoints(const sensor_msgs::JointState& joints, const std::string& sender,
+                             const std::string& named) {
+  const sweep_guard_core::Timestamps timestamps{fromMsg(joints.header.stamp), std::chrono::steady_clock::now()};
   const Receipt now = receipt();
   begin(now);
-  requireStamp(timestamps.stamp);
-  if (live_.initial().tool_source == ToolSource::kJointStates) late_.use(tool_frame_);
-  articulated_->add(event.getPublisherName(), msg);
+  const auto add = [&] {
+    requireStamp(timestamps.stamp, named);
+    if (live_.initial().tool_source == ToolSource::kJointStates) late_.use(tool_frame_);
+    articulated_->add(sender, joints);
+  };
+  if (!refuseWhatFails(add, &sender)) return;
   path_.note(timestamps.stamp, now.static_changes);
-  pushKnownPoses(timestamps.received, checkpoint_);
+  refuseWhatFails([&] { pushKnownPoses(timestamps.received, checkpoint_); });
   reportSilence(timestamps.stamp);
 }
 
 void PoseInput::reportSilence(sweep_guard_core::Time stamp) {
   const std::string silence = articulated_->silence(stamp);
-  if (!silence.empty()) monitor_.fault(sweep_guard_core::kPoseStale, silence);
+  if (silence.empty()) return;
+  record_.lacks(silence);
+  monitor_.fault(sweep_guard_core::kPoseStale, silence);
 }
 
 // Also of tool poses that came: the newest joint decides up to when all are known.

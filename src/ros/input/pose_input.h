@@ -64,9 +64,11 @@ class PoseInput {
   void reportConflict();
   void onTransforms();
   template <typename Accept>
-  void refuseWhatFails(const Accept& accept);
+  bool refuseWhatFails(const Accept& accept, const std::string* sender = nullptr);
   void accept(ReceivedPose pose, const Receipt& receipt);
-  void acceptJoints(const ros::MessageEvent<const sensor_msgs::JointState>& event);
+  void onJoints(const ros::MessageEvent<const sensor_msgs::JointState>& event);
+  void passOver(const sensor_msgs::JointState& joints);
+  void acceptJoints(const sensor_msgs::JointState& joints, const std::string& sender, const std::string& named);
   Receipt receipt() const;
   void begin(const Receipt& receipt);
   void onFramesMoved();
