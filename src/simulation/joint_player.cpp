@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "recording/run_node.h"
+#include "ros/input/joint_names.h"
 #include "ros/parameters/parameters.h"
 #include "simulation/joint_motion.h"
 #include "simulation/motion_start.h"
