@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <regex>
 #include <set>
 
 #include "ros/package_folder.h"
@@ -254,6 +256,20 @@ TEST_F(VisualGeometryTest, ALinkWithoutTheGeometryAskedForIsRefusedWithTheWayOut
   EXPECT_TRUE(has(refusal(robot(link("a")), options), "link 'a': it has no geometry; add a <"));
 }
 
+TEST_F(VisualGeometryTest, ALinkThatIsAPointIsLeftOutUnlessItIsListed) {
+  const std::string urdf =
+      robot(link("a", kBall) + link("b", visual("<box size='0 0 0'/>")) + link("c", visual("<sphere radius='1'/>")) +
+            joint("ab", "fixed", "a", "b") + joint("bc", "fixed", "b", "c"));
+  ToolModelOptions options = toolOf("a", {});
+  options.geometry = LinkGeometry::kEither;
+  const auto shapes = loadToolModel(urdf, options).shapes;
+  ASSERT_EQ(shapes.size(), 2U);
+  EXPECT_EQ(shapes[0].link, "a");
+  EXPECT_EQ(shapes[1].link, "c");
+  options.links = {"a", "b"};
+  EXPECT_TRUE(has(refusal(urdf, options), "link 'b': its box's size in x is 0 m"));
+}
+
 TEST_F(VisualGeometryTest, IsCheckedOnlyWhereItMayBeUsed) {
   const std::string two = robot(
       link("a", kBall) + link("b", "<visual><geometry><sphere radius='1'/><sphere radius='2'/></geometry></visual>") +
@@ -428,6 +444,22 @@ TEST_F(RealRobotTest, DrillIsCutWhereItIsHollow) {
   for (const Vector3d& direction : {Vector3d(1, 0, 0), Vector3d(0, -1, 0), Vector3d(0.6, 0, 0.8)}) {
     EXPECT_NEAR(support(whole, direction), support(hull, direction), 1e-7);
   }
+}
+
+// Only its shaft has collision geometry. Its meshes are missing: boxes stand in.
+TEST_F(RealRobotTest, DvrkInstrumentIsMadeOfItsVisualGeometryBeyondTheShaft) {
+  const std::string urdf =
+      std::regex_replace(read("dvrk_psm1.urdf"), std::regex("<mesh [^>]*/>"), "<box size='0.01 0.01 0.01'/>");
+  ToolModelOptions options = toolOf("PSM1_roll_link", {});
+  EXPECT_TRUE(has(refusal(urdf, options), "it has visual geometry, but no collision; set tool/geometry to either"));
+  options.geometry = LinkGeometry::kEither;
+  std::map<std::string, bool> visuals;
+  for (const LinkShape& shape : loadToolModel(urdf, options).shapes) visuals[shape.link] = shape.is_visual;
+  EXPECT_EQ(visuals, (std::map<std::string, bool>{{"PSM1_roll_link", false},
+                                                  {"PSM1_wrist_pitch_link", true},
+                                                  {"PSM1_wrist_yaw_link", true},
+                                                  {"PSM1_jaw_1_link", true},
+                                                  {"PSM1_jaw_2_link", true}}));
 }
 
 TEST_F(RealRobotTest, DvrkInstrumentIsRefusedByTheNameOfTheMissingMesh) {

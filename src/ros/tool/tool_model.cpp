@@ -44,7 +44,17 @@ const urdf::Link& frameOf(const RobotDescription& robot, const ToolModelOptions&
                                                   : linkNamed(robot, options.links.front(), "tool/links");
 }
 
-bool hasNoShape(const urdf::Link& link) { return link.collision_array.empty() && link.visual_array.empty(); }
+// Some descriptions give links that only join others a box of size 0.
+bool isPoint(const urdf::VisualSharedPtr& visual) {
+  if (visual->geometry->type != urdf::Geometry::BOX) return false;
+  const urdf::Vector3& dim = static_cast<const urdf::Box&>(*visual->geometry).dim;
+  return dim.x == 0.0 && dim.y == 0.0 && dim.z == 0.0;
+}
+
+bool hasNoShape(const urdf::Link& link) {
+  const auto& visuals = link.visual_array;
+  return link.collision_array.empty() && std::all_of(visuals.begin(), visuals.end(), isPoint);
+}
 
 std::vector<const urdf::Link*> linksOf(const RobotDescription& robot, const ToolModelOptions& options,
                                        const urdf::Link& frame) {
