@@ -166,8 +166,8 @@ void readTool(ParameterReader& read, const Parameters* before, Parameters& param
       "them moves. Implied by tool_source joint_states. ~proximity is silent then.");
   parameters.joint_names = read.textsByName(
       "tool/joint_names",
-      "tool/joint_states only: names of joints in the robot description, by their names in `joint_states`, where these "
-      "differ: {outer_yaw: yaw}.");
+      "urdf only: names of joints in the robot description, by their names in `joint_states`, where these differ: "
+      "{outer_yaw: yaw}. ~check_trajectory takes both.");
   parameters.joint_timeouts = readJointTimeouts(read);
   parameters.guard.allowed = readAllowed(read);
   parameters.articulated = joint_states || parameters.tool_source == ToolSource::kJointStates;
