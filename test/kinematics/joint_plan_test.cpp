@@ -17,7 +17,7 @@ using Points = std::vector<std::vector<double>>;
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 
-TreeLink link(const std::string& joint, size_t parent, JointType type, size_t variable) {
+TreeLink jointLink(const std::string& joint, size_t parent, JointType type, size_t variable) {
   TreeLink link;
   link.name = "link of " + joint;
   link.joint = joint;
@@ -28,12 +28,12 @@ TreeLink link(const std::string& joint, size_t parent, JointType type, size_t va
 }
 
 KinematicTree handTree() {
-  TreeLink right = link("finger2", 0, JointType::kPrismatic, 1);
+  TreeLink right = jointLink("finger2", 0, JointType::kPrismatic, 1);
   right.multiplier = -2.0;
   right.offset = 0.01;
   return {{{"wrist", -2.9, 2.9}, {"finger1", 0.0, 0.04}, {"drill", -1e4, 1e4, /*continuous=*/true}},
-          {link("wrist", TreeLink::kRoot, JointType::kRevolute, 0), link("finger1", 0, JointType::kPrismatic, 1), right,
-           link("drill", 0, JointType::kRevolute, 2)}};
+          {jointLink("wrist", TreeLink::kRoot, JointType::kRevolute, 0),
+           jointLink("finger1", 0, JointType::kPrismatic, 1), right, jointLink("drill", 0, JointType::kRevolute, 2)}};
 }
 
 class JointPlanTest : public testing::Test {

@@ -7,9 +7,12 @@
 #include "sweep_guard/common/printable.h"
 
 namespace sweep_guard_ros {
+namespace {
 
 using sweep_guard_core::InvalidInput;
 using sweep_guard_core::printable;
+
+}  // namespace
 
 JointNames::JointNames(const sweep_guard_core::KinematicTree& tree, const std::vector<std::optional<double>>& fixed,
                        const Renamed& renamed)
