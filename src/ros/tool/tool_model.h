@@ -32,9 +32,9 @@ struct ToolModelOptions {
 /// Holds the links of a tool as bodies that joints move.
 struct RobotModel {
   sweep_guard_core::Robot robot;
-  std::vector<double> positions;              ///< of each variable [rad or m]: as ToolModelOptions::joints
-  Eigen::Isometry3d X_TR;                     ///< pose of the robot's root in the tool frame, which no joint moves [m]
-  sweep_guard_core::JointsBesideTree beside;  ///< joints that `robot` does not have
+  std::vector<double> positions;  ///< of each variable [rad or m]: as ToolModelOptions::joints
+  Eigen::Isometry3d X_TR;         ///< pose of the robot's root in the tool frame, which no joint moves [m]
+  sweep_guard_core::JointsBesideTree beside = {};  ///< joints that `robot` does not have
 };
 
 /// Says what a link of a tool is made of.
