@@ -14,6 +14,7 @@ using sweep_guard_core::Time;
 
 constexpr double kMaxDeviation = 5e-4;  // [m], of a body from a Motion
 constexpr size_t kMostParts = 100;      // of a jump
+constexpr size_t kMostMissing = 12;     // joints that a text lists
 
 }  // namespace
 
@@ -106,10 +107,11 @@ std::string ArticulatedTool::missingJoints() const {
   std::string shown;
   for (size_t i = 0; i < timeouts_.size(); ++i) {
     if (!isMissing(i)) continue;
-    shown += (missing.empty() ? " " : ", ") + shownJoint(i);
+    if (missing.size() < kMostMissing) shown += (missing.empty() ? " " : ", ") + shownJoint(i);
     missing.push_back(model_->robot.tree.variables()[i].name);
   }
   if (missing.empty()) return "";
+  if (missing.size() > kMostMissing) shown += ", ...";
   const std::string others = foreign_.text(missing);
   return (missing.size() == 1 ? "joint" + shown + " has" : "joints" + shown + " have") + " not been published yet" +
          (others.empty() ? "" : ", but joint_states has " + others + ": if they are the same, set tool/joint_names");

@@ -187,9 +187,14 @@ std::set<std::string> namesOfMovers(const RobotDescription& robot, const urdf::L
 
 JointsBesideTree jointsBeside(const RobotDescription& robot, const urdf::Link& frame, const KinematicTree& tree) {
   JointsBesideTree beside{namesOfMovers(robot, frame), {}};
+  std::set<std::string> others = beside.of_frame;
+  for (const JointVariable& variable : tree.variables()) others.insert(variable.name);
+  for (const TreeLink& link : tree.links()) {
+    if (link.moves()) others.insert(link.joint);
+  }
   for (const urdf::Link* link : RobotDescription::subtree(robot.root())) {
-    if (!link->parent_joint || hasJoint(tree, beside, link->parent_joint->name)) continue;
-    beside.elsewhere.insert(link->parent_joint->name);
+    if (link->parent_joint && others.count(link->parent_joint->name) == 0)
+      beside.elsewhere.insert(link->parent_joint->name);
   }
   return beside;
 }
