@@ -187,13 +187,13 @@ std::set<std::string> namesOfMovers(const RobotDescription& robot, const urdf::L
 
 JointsBesideTree jointsBeside(const RobotDescription& robot, const urdf::Link& frame, const KinematicTree& tree) {
   JointsBesideTree beside{namesOfMovers(robot, frame), {}};
-  std::set<std::string> others = beside.of_frame;
-  for (const JointVariable& variable : tree.variables()) others.insert(variable.name);
+  std::set<std::string> known = beside.of_frame;
+  for (const JointVariable& variable : tree.variables()) known.insert(variable.name);
   for (const TreeLink& link : tree.links()) {
-    if (link.moves()) others.insert(link.joint);
+    if (link.moves()) known.insert(link.joint);
   }
   for (const urdf::Link* link : RobotDescription::subtree(robot.root())) {
-    if (link->parent_joint && others.count(link->parent_joint->name) == 0)
+    if (link->parent_joint && known.count(link->parent_joint->name) == 0)
       beside.elsewhere.insert(link->parent_joint->name);
   }
   return beside;
