@@ -34,6 +34,25 @@ DiagnosticStatus detectorOf(SweepStatistics& statistics) {
   return status;
 }
 
+TEST(ToolStatusTest, SaysWhatEachLinkIsMadeOf) {
+  Parameters parameters;
+  parameters.tool_description = "5 convex pieces";
+  const auto reported = [&] {
+    diagnostic_updater::DiagnosticStatusWrapper status;
+    reportTool(parameters, status);
+    return DiagnosticStatus(status);
+  };
+  EXPECT_EQ(reported().message, "5 convex pieces");
+  parameters.link_shapes = {{"shaft", /*is_visual=*/false, 2}, {"jaw", /*is_visual=*/false, 1}};
+  EXPECT_EQ(reported().message, "5 convex pieces");
+  EXPECT_EQ(valueOf(reported(), "'shaft'"), "2 pieces from its collision geometry");
+  parameters.link_shapes[1].is_visual = true;
+  parameters.attached = {"payload"};
+  EXPECT_EQ(reported().message, "5 convex pieces, 1 links of visual geometry");
+  EXPECT_EQ(valueOf(reported(), "'jaw'"), "1 pieces from its visual geometry");
+  EXPECT_EQ(valueOf(reported(), "'payload'"), "attached");
+}
+
 // A failing detector is fast enough.
 TEST(DetectorStatusTest, IsAnErrorInThePeriodInWhichTheDetectorFails) {
   SweepStatistics statistics(std::chrono::milliseconds(66));

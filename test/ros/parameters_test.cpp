@@ -146,7 +146,7 @@ TEST_F(ParametersTest, MakeAToolOfARobot) {
   node_.setParam("tool/joints/opening", 1);
   EXPECT_EQ(
       refusal(node_),
-      "no tool from the parameter 'robot_description': tool/joints/opening is beyond the joint's limits, 0 to 0.5");
+      "no tool from the parameter 'robot_description': tool/joints/opening is 1, beyond the joint's limits, 0 to 0.5");
 }
 
 // A command line has no lists.
@@ -301,6 +301,18 @@ TEST_F(ParametersTest, JointsOfACylinderDoNotMove) {
   EXPECT_TRUE(has(refusal(node_), "tool/type is cylinder: set it to urdf"));
 }
 
+TEST_F(ParametersTest, JointsHaveOtherNamesInMessagesIfTheyAreGiven) {
+  ros::param::set("/robot_description", kGripper);
+  node_.setParam("tool/type", "urdf");
+  node_.setParam("tool/joint_states", true);
+  node_.setParam("tool/joint_names/outer_opening", "opening");
+  EXPECT_EQ(loadParameters(node_).joint_names, (std::map<std::string, std::string>{{"outer_opening", "opening"}}));
+  node_.setParam("tool/joint_names/opened", "opening");
+  EXPECT_TRUE(has(refusal(node_), "tool/joint_names: 'opened' and 'outer_opening' name one joint"));
+  node_.setParam("tool/joint_names/opened", "closing");
+  EXPECT_TRUE(has(refusal(node_), "tool/joint_names: no joint 'closing' moves the tool's links"));
+}
+
 TEST_F(ParametersTest, TheSlowestJointDecidesHowOldAPoseMayBe) {
   ros::param::set("/robot_description", kGripper);
   node_.setParam("tool/type", "urdf");
@@ -443,6 +455,10 @@ TEST_F(ParametersTest, AreRefusedByNameValueAndRange) {
   refused("tool/joints", no_ros_name, "tool/joints/finger-1");
   refused("tool/joint_states", "joint_states", "true or false");
   refused("tool/joint_timeouts", 0.5, "a group of numbers");
+  refused("tool/joint_names", "opening", "a group of texts");
+  refused("tool/joint_names/outer", 1, "a text");
+  refused("tool/joint_names/outer", "", "not empty");
+  refused("tool/geometry", "mesh", "collision, visual, either");
   refused("tool/radius", 0.0, "1e-06 to 100");
   refused("tool/radius", -0.01, "-0.01");
   refused("tool/radius", NAN, "1e-06 to 100");

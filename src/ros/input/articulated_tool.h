@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "ros/input/foreign_joints.h"
 #include "ros/input/joint_names.h"
 #include "ros/parameters/parameters.h"
 #include "sweep_guard/guard/pose_with_frames.h"
@@ -22,6 +23,11 @@ class ArticulatedTool {
  public:
   /// @param live  with an articulated tool; its bodies may change, its joints do not
   explicit ArticulatedTool(const LiveParameters& live);
+
+  /// Returns the first name in a message of a joint of the tool that moves; null: the message does not concern the tool.
+  const std::string* firstJointIn(const sensor_msgs::JointState& message) const { return names_.firstIn(message); }
+  /// Remembers the names of joints that are not the tool's, as long as silence() has use for them.
+  void noteForeign(const sensor_msgs::JointState& message);
 
   /// Adds positions of joints; those that are not of the tool are passed over.
   /// @throws sweep_guard_core::InvalidInput as JointTimeline::add(), or if there are not as many positions as names
@@ -40,7 +46,8 @@ class ArticulatedTool {
   /// Returns whether the newest poses from next() go straight past positions that were dropped.
   bool leavesOut() const { return timeline_.leavesOut(); }
 
-  /// Returns what a joint of the tool, or its pose, lacks; empty: nothing.
+  /// Returns which joints of the tool, or its pose, have not been published yet, and which other joints came; else which
+  /// one is silent; empty: none.
   /// @param now  as the stamps
   std::string silence(sweep_guard_core::Time now) const;
 
@@ -53,6 +60,10 @@ class ArticulatedTool {
   void reset();  ///< forgets all positions
 
  private:
+  bool isMissing(size_t variable) const;
+  std::string shownJoint(size_t variable) const;
+  std::string missingPose() const;
+  std::string missingJoints() const;
   void place(sweep_guard_core::Time stamp, const sweep_guard_core::RobotState& state,
              std::vector<sweep_guard_core::PoseWithFrames>& poses);
 
@@ -61,10 +72,12 @@ class ArticulatedTool {
   const std::shared_ptr<const RobotModel> model_;  // at the start
   const bool root_moves_;
   const sweep_guard_core::Duration root_timeout_;
+  const std::vector<std::optional<double>> fixed_;  // by variable
   const JointNames names_;
   std::vector<sweep_guard_core::Duration> timeouts_;  // by variable
   sweep_guard_core::JointTimeline timeline_;
   std::vector<sweep_guard_core::JointTimeline::Position> named_;  // in the message
+  ForeignJoints foreign_;                                         // since a joint of the tool is missing
   std::optional<sweep_guard_core::Time> stamp_;                   // of state_
   sweep_guard_core::RobotState state_;                            // the newest
   std::optional<sweep_guard_core::Time> next_stamp_;              // of next_ while it waits

@@ -33,6 +33,16 @@ void requireStamp(sweep_guard_core::Time stamp) {
   if (liesInFuture(stamp)) throw PoseRefused(sweep_guard_core::kFutureStamp, kFutureStampText);
 }
 
+void requireStamp(sweep_guard_core::Time stamp, const std::string& joint) {
+  try {
+    requireStamp(stamp);
+  } catch (const PoseRefused& error) {
+    const bool is_zero = stamp == sweep_guard_core::Time();
+    throw PoseRefused(error.reason, "joint '" + sweep_guard_core::printable(joint) +
+                                        "': " + (is_zero ? "stamp is 0: stamp each message" : error.what()));
+  }
+}
+
 std::string sourceOf(const ros::NodeHandle& node, const Parameters& parameters) {
   const std::string frames = "tf " + parameters.fixed_frame + " to " + parameters.tool_frame;
   const std::string joints = node.resolveName(kJointsTopic);
@@ -66,7 +76,7 @@ PoseInput::PoseInput(const ros::NodeHandle& node, const LiveParameters& live, co
     articulated_ = std::make_unique<ArticulatedTool>(live);
     joints_ = subscribeBounded<sensor_msgs::JointState>(
         thread_.on(node), {kJointsTopic, kPosesQueued, kMaxJointsSize},
-        std::bind(&PoseInput::acceptJoints, this, std::placeholders::_1),
+        std::bind(&PoseInput::onJoints, this, std::placeholders::_1),
         [this](const std::string& reason) { refuse(sweep_guard_core::kPoseInvalid, reason); });
   }
   if (live.initial().tool_source == ToolSource::kTf) {
@@ -96,27 +106,45 @@ void PoseInput::onMessage(const ros::MessageEvent<const geometry_msgs::PoseStamp
   }
 }
 
-void PoseInput::acceptJoints(const ros::MessageEvent<const sensor_msgs::JointState>& event) {
+void PoseInput::onJoints(const ros::MessageEvent<const sensor_msgs::JointState>& event) {
+  const sensor_msgs::JointState& joints = *event.getConstMessage();
+  const std::string* const named = articulated_->firstJointIn(joints);
+  named == nullptr ? passOver(joints) : acceptJoints(joints, event.getPublisherName(), *named);
+}
+
+// Its stamp says nothing of the tool, whose newest positions may still be on the way.
+void PoseInput::passOver(const sensor_msgs::JointState& joints) {
+  articulated_->noteForeign(joints);
+  reportSilence(now().stamp - live_.get()->limits.pose_timeout);
+}
+
+void PoseInput::acceptJoints(const sensor_msgs::JointState& joints, const std::string& sender,
+                             const std::string& named) {
+  const sweep_guard_core::Timestamps timestamps{fromMsg(joints.header.stamp), std::chrono::steady_clock::now()};
+  const Checkpoint checkpoint = monitor_.checkpoint();
+  const std::uint64_t static_changes = frames_.staticChanges();
+  begin(checkpoint);
   try {
-    const sensor_msgs::JointState& msg = *event.getConstMessage();
-    const sweep_guard_core::Timestamps timestamps{fromMsg(msg.header.stamp), std::chrono::steady_clock::now()};
-    const Checkpoint checkpoint = monitor_.checkpoint();
-    const std::uint64_t static_changes = frames_.staticChanges();
-    begin(checkpoint);
-    requireStamp(timestamps.stamp);
+    requireStamp(timestamps.stamp, named);
     if (live_.initial().tool_source == ToolSource::kJointStates) late_.use(tool_frame_);
-    articulated_->add(event.getPublisherName(), msg);
-    path_.note(timestamps.stamp, static_changes);
+    articulated_->add(sender, joints);
+  } catch (...) {
+    return refuseCaught("joint_states of " + sweep_guard_core::printable(sender) + ": ");
+  }
+  path_.note(timestamps.stamp, static_changes);
+  try {
     pushKnownPoses(timestamps.received, checkpoint_);
-    reportSilence(timestamps.stamp);
   } catch (...) {
     refuseCaught();
   }
+  reportSilence(timestamps.stamp);
 }
 
 void PoseInput::reportSilence(sweep_guard_core::Time stamp) {
   const std::string silence = articulated_->silence(stamp);
-  if (!silence.empty()) monitor_.fault(sweep_guard_core::kPoseStale, silence);
+  if (silence.empty()) return;
+  record_.lacks(silence);
+  monitor_.fault(sweep_guard_core::kPoseStale, silence);
 }
 
 // Also of tool poses that came: the newest joint decides up to when all are known.
@@ -191,19 +219,20 @@ void PoseInput::onTransforms() {
 }
 
 // Refuses an input for the exception that is being handled.
-void PoseInput::refuseCaught() {
+// @param sender  in words, at the beginning of the message
+void PoseInput::refuseCaught(const std::string& sender) {
   try {
     throw;
   } catch (const PoseRefused& error) {
-    refuse(error.reason, error.what());
+    refuse(error.reason, sender + error.what());
   } catch (const FrameError& error) {
-    refuse(sweep_guard_core::kTfFail, error.what());
+    refuse(sweep_guard_core::kTfFail, sender + error.what());
   } catch (const sweep_guard_core::SeveralPublishers& error) {
-    refuse(sweep_guard_core::kMultiPublisher, error.what());
+    refuse(sweep_guard_core::kMultiPublisher, sender + error.what());
   } catch (const sweep_guard_core::OutOfOrder& error) {
-    refuse(sweep_guard_core::kOutOfOrder, error.what());
+    refuse(sweep_guard_core::kOutOfOrder, sender + error.what());
   } catch (const std::exception& error) {  // InvalidInput, or out of memory
-    refuse(sweep_guard_core::kPoseInvalid, error.what());
+    refuse(sweep_guard_core::kPoseInvalid, sender + error.what());
   }
 }
 

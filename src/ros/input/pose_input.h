@@ -59,7 +59,9 @@ class PoseInput {
   void reportConflict();
   void onTransforms();
   void accept(const ReceivedPose& pose);
-  void acceptJoints(const ros::MessageEvent<const sensor_msgs::JointState>& event);
+  void onJoints(const ros::MessageEvent<const sensor_msgs::JointState>& event);
+  void passOver(const sensor_msgs::JointState& joints);
+  void acceptJoints(const sensor_msgs::JointState& joints, const std::string& sender, const std::string& named);
   void begin(const Checkpoint& checkpoint);
   void onFramesMoved();
   void pushWaiting();
@@ -71,7 +73,7 @@ class PoseInput {
   void repeat(sweep_guard_core::Time changed_from, const Checkpoint& checkpoint);
   std::set<std::string> applyStaticChanges(sweep_guard_core::Time from);
   std::string jumpTo(const sweep_guard_core::PoseWithFrames& state);
-  void refuseCaught();
+  void refuseCaught(const std::string& sender = "");
   void refuse(sweep_guard_core::Reason reason, const std::string& message);
 
   const std::string fixed_frame_;

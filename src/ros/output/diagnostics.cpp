@@ -54,6 +54,7 @@ Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& pri
   updater_.setHardwareID("none");
   updater_.add("warning", [this](Status& status) { warning(status); });
   updater_.add("tool pose", [this](Status& status) { pose(status); });
+  updater_.add("tool", [this](Status& status) { reportTool(*state_.parameters.get(), status); });
   updater_.add("mesh", [this](Status& status) { mesh(status); });
   updater_.add("mesh vertices", [this](Status& status) { vertices(status); });
   updater_.add("workpieces", [this](Status& status) { workpieces(status); });
@@ -97,6 +98,19 @@ void Diagnostics::pose(Status& status) {
   if (const auto newest = inputs_.poses().record().summary().newest) reportClocks(*newest, status);
 }
 
+void reportTool(const Parameters& parameters, diagnostic_updater::DiagnosticStatusWrapper& status) {
+  size_t of_visuals = 0;
+  for (const LinkShape& shape : parameters.link_shapes) {
+    of_visuals += shape.is_visual ? 1 : 0;
+    status.addf("'" + shape.link + "'", "%zu pieces from its %s geometry", shape.pieces,
+                shape.is_visual ? "visual" : "collision");
+  }
+  for (const std::string& id : parameters.attached) status.add("'" + id + "'", "attached");
+  status.summary(DiagnosticStatus::OK,
+                 parameters.tool_description +
+                     (of_visuals == 0 ? "" : ", " + std::to_string(of_visuals) + " links of visual geometry"));
+}
+
 void Diagnostics::mesh(Status& status) {
   const InputRecord::Summary record = inputs_.meshes().meshRecord().summary();
   input(status,
@@ -129,6 +143,7 @@ void Diagnostics::input(Status& status, const Input& input, Counts& previous) co
     status.summary(input.continuous ? DiagnosticStatus::STALE : DiagnosticStatus::OK,
                    "nothing received on " + input.source);
   }
+  if (rate == 0.0 && !record.lacking.empty()) status.summary(silence, record.lacking);
   if (record.refused > previous.refused) status.summary(DiagnosticStatus::ERROR, "refused: " + record.last_error);
   const bool warned = !record.last_warning.empty() && record.warning_time > previous.time;
   if (warned) status.mergeSummary(DiagnosticStatus::WARN, record.last_warning);

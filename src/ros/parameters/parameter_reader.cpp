@@ -215,6 +215,26 @@ std::map<std::string, double> ParameterReader::numbers(const std::string& key, c
   return numbers;
 }
 
+std::map<std::string, std::string> ParameterReader::textsByName(const std::string& key, const std::string& effect) {
+  XmlRpc::XmlRpcValue value;
+  const std::string wanted = "a group of texts, or {}";
+  std::map<std::string, std::string> texts;
+  std::string entries;
+  if (get(key, value)) {
+    if (value.getType() != XmlRpc::XmlRpcValue::TypeStruct) refuse(key, value, wanted);
+    for (auto& [name, entry] : value) {
+      const std::string entry_key = std::string(key).append("/").append(name);
+      read_.insert(entry_key);
+      if (entry.getType() != XmlRpc::XmlRpcValue::TypeString) refuse(entry_key, entry, "a text");
+      texts[name] = static_cast<std::string>(entry);
+      if (texts[name].empty()) refuse(entry_key, entry, "a text, not empty");
+      entries += (entries.empty() ? "" : ", ") + name + ": " + texts[name];
+    }
+  }
+  describe({key, "{" + entries + "}", std::string("{}"), 0.0, 0.0, {}, wanted, effect});
+  return texts;
+}
+
 std::map<std::string, bool> ParameterReader::flagsOf(const std::string& key, const std::string& flag,
                                                      const std::string& effect) {
   XmlRpc::XmlRpcValue value;

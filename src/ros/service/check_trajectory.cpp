@@ -4,9 +4,8 @@
 #include <tuple>
 #include <utility>
 
-#include "ros/tool/robot_tree.h"
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/common/printable.h"
+#include "sweep_guard/kinematics/joint_plan.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
@@ -14,7 +13,9 @@ namespace {
 
 using sweep_guard::CheckTrajectory;
 using sweep_guard_core::InvalidInput;
+using sweep_guard_core::JointPlan;
 using sweep_guard_core::PathResult;
+using sweep_guard_core::PlannedPositions;
 using sweep_guard_core::RobotPath;
 using sweep_guard_core::RobotState;
 
@@ -26,41 +27,34 @@ const RobotModel& robotOf(const Parameters& parameters) {
   throw InvalidInput("no joints: " + parameters.why_no_robot);
 }
 
-// Returns the index of the variable of each named joint.
-std::vector<size_t> variablesOf(const RobotModel& model, const std::vector<std::string>& names) {
-  std::vector<size_t> variables;
-  for (const std::string& name : names) {
-    variables.push_back(variableNamed(model.robot.tree, name));
-    if (std::count(variables.begin(), variables.end(), variables.back()) > 1) {
-      throw InvalidInput("joint_names has '" + sweep_guard_core::printable(name) + "' twice");
-    }
-  }
-  return variables;
+// Returns the name in the robot description of a joint that may be named as on `joint_states`.
+std::string nameInModel(const std::string& joint, const Parameters& parameters) {
+  const auto found = parameters.joint_names.find(joint);
+  const bool renamed =
+      found != parameters.joint_names.end() && !hasJoint(parameters.robot->robot.tree, parameters.robot->beside, joint);
+  return renamed ? found->second : joint;
 }
 
-RobotState stateAt(const trajectory_msgs::JointTrajectory& trajectory, size_t point, const RobotModel& model,
-                   const std::vector<size_t>& variables) {
-  const std::vector<double>& positions = trajectory.points[point].positions;
-  const std::string where = "point " + std::to_string(point);
-  if (positions.size() != variables.size()) {
-    throw InvalidInput(where + " has " + std::to_string(positions.size()) + " positions, but joint_names has " +
-                       std::to_string(variables.size()) + " joints");
-  }
-  RobotState state{model.X_TR, model.positions};
-  for (size_t i = 0; i < variables.size(); ++i) state.positions[variables[i]] = positions[i];
-  checkLimits(model.robot.tree, state.positions, where + ", joint ");
-  return state;
+JointPlan planOf(const trajectory_msgs::JointTrajectory& trajectory, const Parameters& parameters) {
+  JointPlan plan;
+  for (const std::string& joint : trajectory.joint_names) plan.joints.push_back(nameInModel(joint, parameters));
+  for (const auto& point : trajectory.points) plan.points.push_back(point.positions);
+  return plan;
 }
 
-// In the frame of the tool.
-std::vector<RobotState> statesOf(const trajectory_msgs::JointTrajectory& trajectory, const RobotModel& model) {
+PlannedPositions plannedBy(const trajectory_msgs::JointTrajectory& trajectory, const Parameters& parameters) {
   if (trajectory.points.empty()) throw InvalidInput("trajectory has no points: send at least one");
   if (trajectory.points.size() > kMaxPoints) {
     throw InvalidInput("trajectory has " + std::to_string(trajectory.points.size()) + " points: send at most 1024");
   }
-  const std::vector<size_t> variables = variablesOf(model, trajectory.joint_names);
+  const RobotModel& model = robotOf(parameters);
+  return planned(model.robot.tree, model.beside, model.positions, planOf(trajectory, parameters));
+}
+
+// In the frame of the tool.
+std::vector<RobotState> statesOf(const PlannedPositions& plan, const RobotModel& model) {
   std::vector<RobotState> states;
-  for (size_t i = 0; i < trajectory.points.size(); ++i) states.push_back(stateAt(trajectory, i, model, variables));
+  for (const std::vector<double>& positions : plan.positions) states.push_back({model.X_TR, positions});
   return states;
 }
 
@@ -135,7 +129,8 @@ void checkTrajectory(PathTests& tests, sweep_guard_core::SteadyTime arrival, con
                      CheckTrajectory::Response& response) {
   const auto question = tests.question(request.volume, request.detector, request.margin, request.fine != 0, arrival);
   const RobotModel& model = robotOf(*question->parameters);
-  const std::vector<RobotState> states = statesOf(request.trajectory, model);
+  const PlannedPositions plan = plannedBy(request.trajectory, *question->parameters);
+  const std::vector<RobotState> states = statesOf(plan, model);
   // Before the snapshot is taken: what is accepted later does not better it.
   const std::string doubts_before = tests.meshProblems(request.mesh_ids);
   const sweep_guard_core::Workpieces workpieces = tests.selected(*question, request.mesh_ids);
@@ -155,6 +150,8 @@ void checkTrajectory(PathTests& tests, sweep_guard_core::SteadyTime arrival, con
                          : doubts_before;
   response.clear = !response.collision && response.message.empty();
   addRemarks(*question, response.message);
+  if (plan.remarks.empty()) return;
+  response.message += (response.message.empty() ? "" : "; ") + plan.remarks;
 }
 
 }  // namespace sweep_guard_ros

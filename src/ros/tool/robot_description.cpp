@@ -53,10 +53,18 @@ int elements(const XMLElement& parent, const char* name = nullptr) {
 }
 
 // urdfdom silently reads only the first of several geometries.
-void requireOneGeometry(const XMLElement& collision, const std::string& link) {
-  const XMLElement* const geometry = collision.FirstChildElement("geometry");
-  if (geometry != nullptr && elements(collision, "geometry") == 1 && elements(*geometry) == 1) return;
-  throw InvalidInput("link '" + link + "': a collision must have one geometry of one shape; give each shape its own");
+void requireOneGeometry(const XMLElement& shape, const std::string& link) {
+  const XMLElement* const geometry = shape.FirstChildElement("geometry");
+  if (geometry != nullptr && elements(shape, "geometry") == 1 && elements(*geometry) == 1) return;
+  throw InvalidInput("link '" + link + "': a " + shape.Name() +
+                     " must have one geometry of one shape; give each shape its own");
+}
+
+void requireOneGeometryEach(const XMLElement& link, const char* kind) {
+  for (const XMLElement* shape = link.FirstChildElement(kind); shape != nullptr;
+       shape = shape->NextSiblingElement(kind)) {
+    requireOneGeometry(*shape, nameOf(link));
+  }
 }
 
 class PrinterWithoutComments : public tinyxml2::XMLPrinter {
@@ -76,7 +84,7 @@ std::string withoutFormats(const std::string& xml) {
 }
 
 // tinyxml2 limits the depth of nested elements; TinyXML, and so urdfdom, does not.
-std::string checkedXml(const std::string& urdf) {
+std::string checkedXml(const std::string& urdf, bool uses_visuals) {
   if (urdf.size() > kMaxDescription) throw InvalidInput("larger than 8 MiB");
   tinyxml2::XMLDocument document;
   if (document.Parse(urdf.data(), urdf.size()) != tinyxml2::XML_SUCCESS) {
@@ -86,10 +94,8 @@ std::string checkedXml(const std::string& urdf) {
   if (robot == nullptr) throw InvalidInput("no element <robot>");
   for (const XMLElement* link = robot->FirstChildElement("link"); link != nullptr;
        link = link->NextSiblingElement("link")) {
-    for (const XMLElement* collision = link->FirstChildElement("collision"); collision != nullptr;
-         collision = collision->NextSiblingElement("collision")) {
-      requireOneGeometry(*collision, nameOf(*link));
-    }
+    requireOneGeometryEach(*link, "collision");
+    if (uses_visuals) requireOneGeometryEach(*link, "visual");
   }
   PrinterWithoutComments printer;
   document.Accept(&printer);
@@ -135,7 +141,8 @@ void requireConnected(const urdf::ModelInterface& model) {
 
 }  // namespace
 
-RobotDescription::RobotDescription(const std::string& urdf) : model_(parse(checkedXml(urdf))) {
+RobotDescription::RobotDescription(const std::string& urdf, bool uses_visuals)
+    : model_(parse(checkedXml(urdf, uses_visuals))) {
   requireOneParentEach(*model_);
   requireConnected(*model_);
 }

@@ -89,6 +89,8 @@ class ParameterReader {
   /// Reads a group of finite numbers by their names in the group, each within a range if there is one; empty if not set.
   std::map<std::string, double> numbers(const std::string& key, const std::string& effect = "",
                                         const std::optional<Range>& range = {});
+  /// Reads a group of texts, none of them empty, by their names in the group; empty if not set.
+  std::map<std::string, std::string> textsByName(const std::string& key, const std::string& effect = "");
   /// Reads a group of groups, each of which has one flag: by the names of the inner groups; empty if not set.
   std::map<std::string, bool> flagsOf(const std::string& key, const std::string& flag, const std::string& effect = "");
   /// Reads a list of groups, each of which has these texts, none of them empty, and nothing else; [] if not set. Returns the
