@@ -173,7 +173,16 @@ void GuardSteps::sweep(const sweep_guard_core::QueuedPose& queued) {
     top_->run([&] { publishers_.bodies.moved(pose); });
   }
   top_->run([&] { dependencies_.touches.swept(*report, workpieces); });
+  top_->run([&] { measureDistances(pose, workpieces); });
   forgetFrames();
+}
+
+void GuardSteps::measureDistances(const sweep_guard_core::PoseWithFrames& pose,
+                                  const sweep_guard_core::Workpieces& workpieces) {
+  if (dependencies_.distances == nullptr) return;
+  bodies_.clear();
+  for (size_t i = 0; i < std::max<size_t>(1, pose.bodies.size()); ++i) bodies_.push_back(&guard_.tool(i));
+  dependencies_.distances->add(pose, workpieces, std::chrono::steady_clock::now(), bodies_);
 }
 
 void GuardSteps::sweepOn() {
