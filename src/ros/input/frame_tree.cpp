@@ -1,5 +1,6 @@
 #include "ros/input/frame_tree.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace sweep_guard_ros {
@@ -36,7 +37,14 @@ void FrameTree::use(const std::string& user, const std::string& target, const st
 bool FrameTree::isUsed(const std::string& child) const {
   const sweep_guard_core::Lock lock(mutex_);
   if (outdated_) findUsed();
-  return used_.count(child) != 0;
+  return std::any_of(used_.begin(), used_.end(), [&](const auto& used) { return used.second.count(child) != 0; });
+}
+
+bool FrameTree::isUsedBy(const std::string& user, const std::string& child) const {
+  const sweep_guard_core::Lock lock(mutex_);
+  if (outdated_) findUsed();
+  const auto used = used_.find(user);
+  return used != used_.end() && used->second.count(child) != 0;
 }
 
 // Between two frames lies what leads up from one of them and not from the other.
@@ -54,8 +62,8 @@ void FrameTree::findUsed() const {
         --target_end;
         --source_end;
       }
-      used_.insert(from_target.begin(), target_end);
-      used_.insert(from_source.begin(), source_end);
+      used_[user].insert(from_target.begin(), target_end);
+      used_[user].insert(from_source.begin(), source_end);
     }
   }
 }

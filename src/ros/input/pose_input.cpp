@@ -1,5 +1,6 @@
 #include "ros/input/pose_input.h"
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
 
 #include "ros/input/future_stamp.h"
@@ -70,7 +71,9 @@ PoseInput::PoseInput(const ros::NodeHandle& node, const LiveParameters& live, co
       moving_frames_(fixed_frame_, {frames_, dependencies.frame_motions, monitor_, dependencies.queue, record_}),
       late_(live, frames_),
       path_(fixed_frame_, {frames_, dependencies.workpieces, moving_frames_, monitor_, dependencies.queue}) {
+  if (live.initial().tool_source != ToolSource::kTopic) late_.use(tool_frame_);  // before a pose, for what is refused
   frames_moved_ = frames_.onMove([this] { onFramesMoved(); });
+  transforms_refused_ = frames_.onRefusal([this] { onRefusal(); });
   if (live.initial().articulated) {
     articulated_ = std::make_unique<ArticulatedTool>(live);
     joints_ = subscribeBounded<sensor_msgs::JointState>(
@@ -106,7 +109,6 @@ void PoseInput::acceptJoints(const ros::MessageEvent<const sensor_msgs::JointSta
   const Receipt now = receipt();
   begin(now);
   requireStamp(timestamps.stamp);
-  if (live_.initial().tool_source == ToolSource::kJointStates) late_.use(tool_frame_);
   articulated_->add(event.getPublisherName(), msg);
   path_.note(timestamps.stamp, now.static_changes);
   pushKnownPoses(timestamps.received, checkpoint_);
@@ -160,23 +162,54 @@ void PoseInput::reportConflict() {
   log_.error("conflict", conflict);
 }
 
+// A static transform comes once: what it would have moved is not known until a good one comes.
+void PoseInput::reportRefusal() {
+  const std::string refusal = frames_.refusal();
+  if (!refusal.empty()) monitor_.fault(sweep_guard_core::kTfFail, refusal);
+}
+
+// Runs in the thread of the tf listener.
+void PoseInput::onRefusal() {
+  const std::string of_tool = frames_.refusalFor("tool");
+  const std::string refusal = of_tool.empty() ? frames_.refusal() : of_tool;
+  record_.error(refusal, /*refused=*/!of_tool.empty());
+  monitor_.fault(sweep_guard_core::kTfFail, refusal);
+}
+
 // Runs in the thread of the tf listener, or where static transforms are applied, one at a time.
 void PoseInput::onTransforms() {
   const std::optional<sweep_guard_core::Time> newest = frames_.newest(fixed_frame_, tool_frame_);
   if (newest == last_transform_) return;  // another transform has changed
   last_transform_ = newest;
-  if (!newest) return;
+  if (newest && *newest != sweep_guard_core::Time()) addPoseOfFrame(*newest, /*rests=*/false);
+}
+
+void PoseInput::addPoseOfFrame(sweep_guard_core::Time stamp, bool rests) {
   if (waiting_ >= kPosesQueued)
     return monitor_.fault(sweep_guard_core::kPosesUnswept, "tool poses from tf were dropped: too many wait");
-  const sweep_guard_core::Timestamps timestamps{*newest, std::chrono::steady_clock::now()};
+  const sweep_guard_core::Timestamps timestamps{stamp, std::chrono::steady_clock::now()};
   const ReceivedPose pose{timestamps, tool_frame_, Eigen::Isometry3d::Identity()};
   ++waiting_;
-  thread_.post([this, pose, now = receipt()] {
+  thread_.post([this, pose, rests, now = receipt()] {
     --waiting_;
     if (!articulated_) record_.received(pose.timestamps);
     const bool outdated = now.checkpoint.epoch < checkpoint_.epoch;  // joints have come meanwhile
     refuseWhatFails([&] { accept(pose, outdated ? receipt() : now); });
+    if (rests) rested_until_ = pose.timestamps.stamp;
   });
+}
+
+// Half of the timeout, if that is shorter: a pose that waits for the processor is not stale yet.
+void PoseInput::addRestingPose() {
+  if (live_.initial().tool_source != ToolSource::kTf) return;
+  const auto parameters = live_.get();
+  const sweep_guard_core::Instant at = now();
+  const auto period = std::min(parameters->guard.cycle, parameters->limits.pose_timeout / 2);
+  if (at.steady - rested_ < period || at.stamp == sweep_guard_core::Time()) return;
+  if (frames_.newest(fixed_frame_, tool_frame_) != sweep_guard_core::Time()) return;
+  rested_ = at.steady;
+  if (frames_.find(fixed_frame_, tool_frame_, at.stamp)) return addPoseOfFrame(at.stamp, /*rests=*/true);
+  refuse(sweep_guard_core::kPoseInvalid, "the transforms to '" + tool_frame_ + "' have the stamp 0: stamp each");
 }
 
 void PoseInput::refuse(Reason reason, const std::string& message) {
@@ -198,6 +231,7 @@ void PoseInput::begin(const Receipt& receipt) {
     path_.clear();
     if (articulated_) articulated_->reset();
     jumps_.reset();
+    rested_until_ = {};
   }
   checkpoint_ = receipt.checkpoint;
   // After the checkpoint: the sweep to this pose does not end the fault.
@@ -205,10 +239,13 @@ void PoseInput::begin(const Receipt& receipt) {
     monitor_.fault(sweep_guard_core::kMultiPublisher, "several nodes publish tool poses on " + source_);
   }
   reportConflict();
+  reportRefusal();
 }
 
+// The first transforms of a tool that has rested may be older than the newest pose at rest.
 void PoseInput::accept(ReceivedPose pose, const Receipt& receipt) {
   begin(receipt);
+  pose.timestamps.stamp = std::max(pose.timestamps.stamp, rested_until_);
   const sweep_guard_core::Time stamp = pose.timestamps.stamp;
   requireStamp(stamp);
   const auto previous = late_.newest();

@@ -50,6 +50,10 @@ class PoseInput {
   /// Applies static transforms that have changed though no pose has come for `timing/pose_timeout`. Any thread.
   void applyLateChanges();
 
+  /// Takes a tool from tf that no transform moves for one at rest: queues its pose of now, at timing/min_rate at least. To be
+  /// called often, by one thread.
+  void addRestingPose();
+
  private:
   using Checkpoint = sweep_guard_core::WarningMonitor::Checkpoint;
 
@@ -62,7 +66,10 @@ class PoseInput {
   void countLost(const std::string& publisher, std::uint32_t sequence);
   bool hasSeveralPublishers() const;
   void reportConflict();
+  void reportRefusal();
+  void onRefusal();
   void onTransforms();
+  void addPoseOfFrame(sweep_guard_core::Time stamp, bool rests);
   template <typename Accept>
   void refuseWhatFails(const Accept& accept);
   void accept(ReceivedPose pose, const Receipt& receipt);
@@ -91,6 +98,8 @@ class PoseInput {
   Checkpoint checkpoint_;  // of the previous input
   JumpWatch jumps_;
   std::optional<sweep_guard_core::Time> last_transform_;  // used by the tf listener's thread only
+  sweep_guard_core::SteadyTime rested_;                   // newest call of addRestingPose() that queued a pose
+  sweep_guard_core::Time rested_until_;                   // stamp of the newest pose of a tool from tf at rest
   std::string publisher_;                                 // of the previous pose
   std::uint32_t sequence_ = 0;                            // of the previous pose
   std::atomic<std::uint64_t> lost_ = 0;
@@ -107,6 +116,7 @@ class PoseInput {
   QueueThread thread_;  // before the subscribers, which use its queue
   std::shared_ptr<void> transforms_changed_;
   std::shared_ptr<void> frames_moved_;
+  std::shared_ptr<void> transforms_refused_;
   BoundedSubscriber subscriber_;
   BoundedSubscriber joints_;
 };
