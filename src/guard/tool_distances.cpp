@@ -33,7 +33,7 @@ double boxDistance(const Tool& body, const Eigen::Isometry3d& X_MB, const Triang
 void ToolDistances::add(const PoseWithFrames& pose, const Workpieces& workpieces, SteadyTime now,
                         const std::vector<const Tool*>& bodies) {
   const Lock lock(mutex_);
-  if (now - measured_ < kPeriod) return;
+  if (measured_ && now - *measured_ < kPeriod) return;
   measured_ = now;
   auto known = distances_.begin();
   for (const auto& workpiece : workpieces) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,7 @@ class ToolDistances {
 
  private:
   mutable Mutex mutex_;
-  SteadyTime measured_ GUARDED_BY(mutex_);
+  std::optional<SteadyTime> measured_ GUARDED_BY(mutex_);         // newest
   std::map<std::string, Distance> distances_ GUARDED_BY(mutex_);  // by id
 };
 

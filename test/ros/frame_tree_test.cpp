@@ -43,6 +43,15 @@ TEST_F(FrameTreeTest, EachUserHasItsOwn) {
   EXPECT_TRUE(tree_.isUsed("base"));
 }
 
+TEST_F(FrameTreeTest, TellsWhoUsesAFrame) {
+  tree_.use("workpieces", "world", {"part"});
+  tree_.use("tool", "world", {"tool"});
+  EXPECT_TRUE(tree_.isUsedBy("workpieces", "table"));
+  EXPECT_FALSE(tree_.isUsedBy("tool", "table"));
+  EXPECT_TRUE(tree_.isUsedBy("tool", "base"));
+  EXPECT_FALSE(tree_.isUsedBy("haptics", "base"));
+}
+
 TEST_F(FrameTreeTest, FollowsAFrameThatIsHungUpElsewhere) {
   tree_.use("workpieces", "world", {"part"});
   ASSERT_FALSE(tree_.isUsed("base"));

@@ -23,7 +23,8 @@ std::string withoutMarks(std::string text) {
 }
 
 ros::Time before(ros::Time stamp, ros::Duration by) {
-  return stamp.toNSec() > static_cast<std::uint64_t>(by.toNSec()) ? stamp - by : ros::Time();
+  const ros::Time first = ros::Time() + kInstant;  // 0 would be the newest
+  return stamp > first + by ? stamp - by : first;
 }
 
 sweep_guard_core::InvalidInput tooOld(ros::Duration age) {
@@ -67,7 +68,7 @@ void FrameBuffer::beginToMove(const std::string& child, ros::Time first, const s
   rest.child_frame_id += kMoved;
   const auto add = [&](ros::Duration earlier) {
     rest.header.stamp = before(first, earlier);
-    if (!rest.header.stamp.isZero() && isNew(child, rest.header.stamp))
+    if (rest.header.stamp < first && isNew(child, rest.header.stamp))
       buffer_.setTransform(rest, publisher, /*is_static=*/false);
   };
   for (ros::Duration earlier = kKept; earlier > kInstant; earlier -= kRestPeriod) add(earlier);

@@ -205,9 +205,11 @@ void PoseInput::addRestingPose() {
   const auto parameters = live_.get();
   const sweep_guard_core::Instant at = now();
   const auto period = std::min(parameters->guard.cycle, parameters->limits.pose_timeout / 2);
-  if (at.steady - rested_ < period || at.stamp == sweep_guard_core::Time()) return;
+  const bool waits =
+      at.steady - rested_.steady < period && rested_.stamp <= at.stamp && at.stamp - rested_.stamp < period;
+  if (waits || at.stamp == sweep_guard_core::Time()) return;
   if (frames_.newest(fixed_frame_, tool_frame_) != sweep_guard_core::Time()) return;
-  rested_ = at.steady;
+  rested_ = at;
   if (frames_.find(fixed_frame_, tool_frame_, at.stamp)) return addPoseOfFrame(at.stamp, /*rests=*/true);
   refuse(sweep_guard_core::kPoseInvalid, "the transforms to '" + tool_frame_ + "' have the stamp 0: stamp each");
 }

@@ -50,8 +50,8 @@ class PoseInput {
   /// Applies static transforms that have changed though no pose has come for `timing/pose_timeout`. Any thread.
   void applyLateChanges();
 
-  /// Takes a tool from tf that no transform moves for one at rest: queues its pose of now, at timing/min_rate at least. To be
-  /// called often, by one thread.
+  /// Takes a tool from tf that no transform moves for one at rest: adds its pose of now, at timing/min_rate at least, by either clock.
+  /// To be called often, by one thread.
   void addRestingPose();
 
  private:
@@ -98,10 +98,10 @@ class PoseInput {
   Checkpoint checkpoint_;  // of the previous input
   JumpWatch jumps_;
   std::optional<sweep_guard_core::Time> last_transform_;  // used by the tf listener's thread only
-  sweep_guard_core::SteadyTime rested_;                   // newest call of addRestingPose() that queued a pose
-  sweep_guard_core::Time rested_until_;                   // stamp of the newest pose of a tool from tf at rest
-  std::string publisher_;                                 // of the previous pose
-  std::uint32_t sequence_ = 0;                            // of the previous pose
+  sweep_guard_core::Instant rested_{};   // when addRestingPose() last added one; used by its thread only
+  sweep_guard_core::Time rested_until_;  // stamp of the newest pose of a tool from tf at rest
+  std::string publisher_;                // of the previous pose
+  std::uint32_t sequence_ = 0;           // of the previous pose
   std::atomic<std::uint64_t> lost_ = 0;
   std::atomic<size_t> waiting_ = 0;  // poses from tf
   LogThrottle log_;
