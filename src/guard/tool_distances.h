@@ -26,8 +26,8 @@ class ToolDistances {
     double least;  ///< since the workpiece came [m], >= 0
   };
 
-  /// Measures at a pose, unless the last time is less than 20 ms ago: a thousand workpieces take some 20 us. One whose frame is not
-  /// known keeps its distances.
+  /// Measures at a pose. Of a tool of many bodies among many workpieces not at each one: a thousand pairs are measured every 20 ms.
+  /// A workpiece whose frame is not known keeps its distances.
   /// @param workpieces  ascending by id; not checked
   /// @param bodies      of the tool, as many as the pose has, none null
   void add(const PoseWithFrames& pose, const Workpieces& workpieces, SteadyTime now,

@@ -99,7 +99,7 @@ TEST_F(DiagnosticsTest, SayHowLargeWorkpiecesAreAndHowFarTheToolIs) {
   restAt({0.0, 0.0, 0.5});
   probe().awaitStatus("workpieces", doubts("'mesh in mm' is 200 m long: is its mesh in millimeters?"));
   probe().remove("mesh in mm");
-  placeSquare("transform in mm", {0.0, 0.0, -300.0});
+  placeSquare("transform in mm", {0.0, 0.0, -299.75});
   restAt({0.0, 0.0, 0.5});
   probe().awaitStatus("workpieces", doubts("the tool was never nearer to 'transform in mm' than 300 m"));
 }
@@ -107,17 +107,19 @@ TEST_F(DiagnosticsTest, SayHowLargeWorkpiecesAreAndHowFarTheToolIs) {
 TEST_F(DiagnosticsTest, SayWhichTransformOfAWorkpieceIsRefused) {
   placeSquare("square", {0.0, 0.0, -1.0}, "bench");
   ConnectedPublisher<tf2_msgs::TFMessage> publisher("/tf");
-  for (const double length : {0.5, 0.0, 1.3}) {
+  for (const auto& [length, value] : {std::pair{0.5, "0.5) is 0.5"}, {0.0, "0) is 0"}, {1.3, "1.3) is 1.3"}}) {
     tf2_msgs::TFMessage message;
     geometry_msgs::TransformStamped& bench = message.transforms.emplace_back();
     bench.header.frame_id = "world";
     bench.header.stamp = probe().time();
     bench.child_frame_id = "bench";
     bench.transform.rotation.w = length;
-    moveTo({0.0, 0.0, 0.5});  // from now on, the frame counts
-    publisher->publish(message);
-    probe().awaitWarning([&](const Warning& warning) {
-      return hasReason(Warning::TF_FAIL)(warning) && has(warning.text, "transform to 'bench' from node '");
+    probe().tick(0.01);
+    probe().publish(poseAt(kAway, probe().time()));  // from then on, the frame counts
+    (*publisher).publish(message);
+    probe().awaitWarning([&, refused = value](const Warning& warning) {
+      return hasReason(Warning::TF_FAIL)(warning) && has(warning.text, "transform to 'bench' from node '") &&
+             has(warning.text, refused);
     });
   }
   probe().awaitStatus("workpieces", [](const DiagnosticStatus& status) {

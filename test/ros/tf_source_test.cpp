@@ -37,7 +37,7 @@ TEST(TfSourceTest, AToolThatNothingMovesIsAtRestUntilSomethingDoes) {
   tf2_msgs::TFMessage at_rest;
   at_rest.transforms = {transformTo("base", "world", {}, Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.2))),
                         transformTo("drill", "base", {}, pointingDownAt(0.3))};
-  mount->publish(at_rest);
+  (*mount).publish(at_rest);
   probe.place(squareAt("square", {0.0, 0.0, 0.0}, probe.time()));
   Warning warning;
   for (int i = 0; i < 400 && !warning.clear; ++i) {
@@ -53,7 +53,7 @@ TEST(TfSourceTest, AToolThatNothingMovesIsAtRestUntilSomethingDoes) {
     tf2_msgs::TFMessage moved;
     const Eigen::Isometry3d X(Eigen::Translation3d(0.0, 0.0, 0.2 - 0.03 * i));
     moved.transforms = {transformTo("base", "world", probe.time(), X)};
-    driver->publish(moved);
+    (*driver).publish(moved);
   }
   const std::vector<Contacts> contacts = probe.awaitContactsUpTo(probe.time());
   EXPECT_TRUE(endToEnd(contacts));
