@@ -52,6 +52,13 @@ TEST_F(FrameTreeTest, TellsWhoUsesAFrame) {
   EXPECT_FALSE(tree_.isUsedBy("haptics", "base"));
 }
 
+TEST_F(FrameTreeTest, TellsWhatLiesBetweenFramesThatNobodyUses) {
+  const std::set<std::string> expected = {"table", "part", "base", "tool"};
+  EXPECT_EQ(tree_.between("part", "tool"), expected);
+  EXPECT_EQ(tree_.between("map", "base"), (std::set<std::string>{"world", "base"}));
+  EXPECT_EQ(tree_.between("world", "nowhere"), (std::set<std::string>{"map", "nowhere", "world"}));
+}
+
 TEST_F(FrameTreeTest, FollowsAFrameThatIsHungUpElsewhere) {
   tree_.use("workpieces", "world", {"part"});
   ASSERT_FALSE(tree_.isUsed("base"));

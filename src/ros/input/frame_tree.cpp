@@ -19,6 +19,20 @@ std::vector<std::string> chainTo(const std::map<std::string, std::string>& paren
   return frames;
 }
 
+// Between two frames lies what leads up from one of them and not from the other.
+std::set<std::string> framesBetween(const std::map<std::string, std::string>& parents, const std::string& target,
+                                    const std::string& source) {
+  std::vector<std::string> from_target = chainTo(parents, target);
+  std::vector<std::string> from_source = chainTo(parents, source);
+  while (!from_target.empty() && !from_source.empty() && from_target.back() == from_source.back()) {
+    from_target.pop_back();
+    from_source.pop_back();
+  }
+  std::set<std::string> frames(from_target.begin(), from_target.end());
+  frames.insert(from_source.begin(), from_source.end());
+  return frames;
+}
+
 }  // namespace
 
 void FrameTree::add(const std::string& parent, const std::string& child) {
@@ -47,25 +61,17 @@ bool FrameTree::isUsedBy(const std::string& user, const std::string& child) cons
   return used != used_.end() && used->second.count(child) != 0;
 }
 
-// Between two frames lies what leads up from one of them and not from the other.
 void FrameTree::findUsed() const {
   used_.clear();
   outdated_ = false;
   for (const auto& [user, uses] : uses_) {
-    const std::vector<std::string> from_target = chainTo(parents_, uses.target);
-    for (const std::string& source : uses.sources) {
-      const std::vector<std::string> from_source = chainTo(parents_, source);
-      auto target_end = from_target.end();
-      auto source_end = from_source.end();
-      while (target_end != from_target.begin() && source_end != from_source.begin() &&
-             *std::prev(target_end) == *std::prev(source_end)) {
-        --target_end;
-        --source_end;
-      }
-      used_[user].insert(from_target.begin(), target_end);
-      used_[user].insert(from_source.begin(), source_end);
-    }
+    for (const std::string& source : uses.sources) used_[user].merge(framesBetween(parents_, uses.target, source));
   }
+}
+
+std::set<std::string> FrameTree::between(const std::string& target, const std::string& source) const {
+  const sweep_guard_core::Lock lock(mutex_);
+  return framesBetween(parents_, target, source);
 }
 
 }  // namespace sweep_guard_ros

@@ -23,6 +23,8 @@ class FrameTree {
   bool isUsed(const std::string& child) const;
   /// Returns the same for the frames of one user.
   bool isUsedBy(const std::string& user, const std::string& child) const;
+  /// Returns the frames whose transforms, from what each stands on, lie between two frames.
+  std::set<std::string> between(const std::string& target, const std::string& source) const;
 
  private:
   struct Uses {
