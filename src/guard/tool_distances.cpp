@@ -8,7 +8,8 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr Duration kPeriod = std::chrono::microseconds(20);  // for each body and workpiece, which take about 0.05 us
+constexpr Duration kPeriodOfPair =
+    std::chrono::microseconds(20);  // for each body and workpiece, which take about 0.05 us
 
 // Infinite if its frame is not known.
 double distanceTo(const Workpiece& workpiece, const PoseWithFrames& pose, const std::vector<const Tool*>& bodies) {
@@ -33,7 +34,7 @@ double boxDistance(const Tool& body, const Eigen::Isometry3d& X_MB, const Triang
 void ToolDistances::add(const PoseWithFrames& pose, const Workpieces& workpieces, SteadyTime now,
                         const std::vector<const Tool*>& bodies) {
   const Lock lock(mutex_);
-  const Duration period = kPeriod * static_cast<int>(bodies.size() * workpieces.size());
+  const Duration period = kPeriodOfPair * static_cast<int>(bodies.size() * workpieces.size());
   if (measured_ && now - *measured_ < period) return;
   measured_ = now;
   auto known = distances_.begin();

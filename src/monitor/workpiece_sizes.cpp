@@ -11,7 +11,7 @@ namespace {
 
 constexpr size_t kMaxShown = 20;
 constexpr double kLong = 10.0;  // [m]
-constexpr double kFar = 5.0;    // [m]
+constexpr double kNear = 5.0;   // [m]
 
 using Distance = ToolDistances::Distance;
 
@@ -27,7 +27,7 @@ std::string shortText(double value) {
   return text.data();
 }
 
-std::string describe(const Placed& placed) {
+std::string sizeInWords(const Placed& placed) {
   const auto& [workpiece, size, distance] = placed;
   const std::string box = shortText(size.x()) + " x " + shortText(size.y()) + " x " + shortText(size.z()) + " m, ";
   if (!std::isfinite(distance.least)) return box + "distance from the tool not known";
@@ -52,7 +52,7 @@ std::string tooLong(const std::vector<Placed>& all) {
 // Names the one that the tool came nearest to.
 std::string tooFar(const std::vector<Placed>& all) {
   const auto is_far = [](const Placed& placed) {
-    return placed.distance.least > kFar && std::isfinite(placed.distance.least);
+    return placed.distance.least > kNear && std::isfinite(placed.distance.least);
   };
   const auto count = std::count_if(all.begin(), all.end(), is_far);
   if (count == 0) return {};
@@ -81,7 +81,7 @@ WorkpieceSizes workpieceSizes(const Workpieces& workpieces, const std::map<std::
   const auto nearer = [](const Placed& one, const Placed& other) { return one.distance.now < other.distance.now; };
   std::stable_sort(all.begin(), all.end(), nearer);
   if (all.size() > kMaxShown) all.resize(kMaxShown);
-  for (const Placed& placed : all) sizes.nearest.emplace_back(placed.workpiece->id, describe(placed));
+  for (const Placed& placed : all) sizes.nearest.emplace_back(placed.workpiece->id, sizeInWords(placed));
   return sizes;
 }
 

@@ -10,13 +10,13 @@ namespace {
 using std::chrono::milliseconds;
 
 // 0.2 m wide and long, 0.1 m high, its middle at the origin.
-TriangleMesh slab() {
+TriangleMesh flatBox() {
   return TriangleMesh({{-0.1, -0.1, -0.05}, {0.1, -0.1, -0.05}, {0.1, 0.1, 0.05}, {-0.1, 0.1, 0.05}},
                       {{0, 1, 2}, {0, 2, 3}});
 }
 
 std::shared_ptr<const Workpiece> slabNamed(const std::string& id, const std::string& frame = "table") {
-  return std::make_shared<const Workpiece>(Workpiece{id, 1, {}, {}, frame, slab()});
+  return std::make_shared<const Workpiece>(Workpiece{id, 1, {}, {}, frame, flatBox()});
 }
 
 class ToolDistancesTest : public testing::Test {
@@ -56,9 +56,9 @@ TEST_F(ToolDistancesTest, AreNeverMoreThanThatOfATurnedTool) {
     double nearest = std::numeric_limits<double>::infinity();
     for (const double z : {0.0, -0.1, -0.2}) {
       const Eigen::Vector3d p_M = X_MT * Eigen::Vector3d(0.0, 0.0, z);
-      nearest = std::min(nearest, slab().bounds_M().exteriorDistance(p_M));
+      nearest = std::min(nearest, flatBox().bounds_M().exteriorDistance(p_M));
     }
-    const double distance = boxDistance(drill_, X_MT, slab());
+    const double distance = boxDistance(drill_, X_MT, flatBox());
     EXPECT_LE(distance, nearest + 1e-9);
     EXPECT_GE(distance, 0.0);
   }

@@ -7,8 +7,8 @@
 namespace sweep_guard_ros {
 namespace {
 
-geometry_msgs::TransformStamped transformTo(const std::string& child, const std::string& parent, double stamp,
-                                            double x) {
+geometry_msgs::TransformStamped transformAlongX(const std::string& child, const std::string& parent, double stamp,
+                                                double x) {
   geometry_msgs::TransformStamped transform;
   transform.header.frame_id = parent;
   transform.header.stamp = ros::Time(stamp);
@@ -21,10 +21,10 @@ geometry_msgs::TransformStamped transformTo(const std::string& child, const std:
 class FrameBufferTest : public testing::Test {
  protected:
   void rest(const std::string& child, const std::string& parent, double x) {
-    buffer_.set(transformTo(child, parent, 0.0, x), "/calibration", /*is_static=*/true);
+    buffer_.set(transformAlongX(child, parent, 0.0, x), "/calibration", /*is_static=*/true);
   }
   void move(const std::string& child, const std::string& parent, double stamp, double x) {
-    buffer_.set(transformTo(child, parent, stamp, x), "/driver", /*is_static=*/false);
+    buffer_.set(transformAlongX(child, parent, stamp, x), "/driver", /*is_static=*/false);
   }
   double x(const std::string& child, double stamp, const std::string& target = "world") const {
     return buffer_.lookup(target, child, ros::Time(stamp)).transform.translation.x;

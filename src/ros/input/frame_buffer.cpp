@@ -13,7 +13,7 @@ namespace {
 using geometry_msgs::TransformStamped;
 
 constexpr char kMoved = '\1';  // after a name in tf2; no name has it
-const ros::Duration kKept(tf2::BufferCore::DEFAULT_CACHE_TIME);
+const ros::Duration kHistory(tf2::BufferCore::DEFAULT_CACHE_TIME);
 const ros::Duration kInstant(0, 1);
 const ros::Duration kRestPeriod(1.0);  // of the samples that say where a frame was before it moved
 
@@ -22,7 +22,7 @@ std::string withoutMarks(std::string text) {
   return text;
 }
 
-ros::Time before(ros::Time stamp, ros::Duration by) {
+ros::Time earlierBy(ros::Time stamp, ros::Duration by) {
   const ros::Time first = ros::Time() + kInstant;  // 0 would be the newest
   return stamp > first + by ? stamp - by : first;
 }
@@ -49,11 +49,11 @@ void FrameBuffer::set(const TransformStamped& transform, const std::string& publ
 bool FrameBuffer::isNew(const std::string& child, ros::Time stamp) {
   const sweep_guard_core::Lock lock(mutex_);
   std::deque<ros::Time>& stamps = stamps_[child];
-  if (!stamps.empty() && stamp < before(stamps.back(), kKept)) throw tooOld(stamps.back() - stamp);
+  if (!stamps.empty() && stamp < earlierBy(stamps.back(), kHistory)) throw tooOld(stamps.back() - stamp);
   const auto place = std::lower_bound(stamps.begin(), stamps.end(), stamp);
   if (place != stamps.end() && *place == stamp) return false;
   stamps.insert(place, stamp);
-  while (stamps.front() < before(stamps.back(), kKept)) stamps.pop_front();
+  while (stamps.front() < earlierBy(stamps.back(), kHistory)) stamps.pop_front();
   return true;
 }
 
@@ -67,11 +67,11 @@ void FrameBuffer::beginToMove(const std::string& child, ros::Time first, const s
   rest = named(std::move(rest));
   rest.child_frame_id += kMoved;
   const auto add = [&](ros::Duration earlier) {
-    rest.header.stamp = before(first, earlier);
+    rest.header.stamp = earlierBy(first, earlier);
     if (rest.header.stamp < first && isNew(child, rest.header.stamp))
       buffer_.setTransform(rest, publisher, /*is_static=*/false);
   };
-  for (ros::Duration earlier = kKept; earlier > kInstant; earlier -= kRestPeriod) add(earlier);
+  for (ros::Duration earlier = kHistory; earlier > kInstant; earlier -= kRestPeriod) add(earlier);
   add(kInstant);
   rename(child);
   for (const TransformStamped& other : standingOn(child))
