@@ -11,7 +11,7 @@ namespace {
 
 constexpr size_t kMaxShown = 20;
 constexpr double kLong = 10.0;  // [m]
-constexpr double kNear = 5.0;   // [m]
+constexpr double kEverNear = 5.0;   // [m]
 
 using Distance = ToolDistances::Distance;
 
@@ -52,7 +52,7 @@ std::string tooLong(const std::vector<Placed>& all) {
 // Names the one that the tool came nearest to.
 std::string tooFar(const std::vector<Placed>& all) {
   const auto is_far = [](const Placed& placed) {
-    return placed.distance.least > kNear && std::isfinite(placed.distance.least);
+    return placed.distance.least > kEverNear && std::isfinite(placed.distance.least);
   };
   const auto count = std::count_if(all.begin(), all.end(), is_far);
   if (count == 0) return {};

@@ -49,11 +49,11 @@ void FrameBuffer::set(const TransformStamped& transform, const std::string& publ
 bool FrameBuffer::isNew(const std::string& child, ros::Time stamp) {
   const sweep_guard_core::Lock lock(mutex_);
   std::deque<ros::Time>& stamps = stamps_[child];
-  if (!stamps.empty() && stamp < earlierBy(stamps.back(), kHistory)) throw tooOld(stamps.back() - stamp);
+  if (!stamps.empty() && stamp + kHistory < stamps.back()) throw tooOld(stamps.back() - stamp);
   const auto place = std::lower_bound(stamps.begin(), stamps.end(), stamp);
   if (place != stamps.end() && *place == stamp) return false;
   stamps.insert(place, stamp);
-  while (stamps.front() < earlierBy(stamps.back(), kHistory)) stamps.pop_front();
+  while (stamps.front() + kHistory < stamps.back()) stamps.pop_front();
   return true;
 }
 
