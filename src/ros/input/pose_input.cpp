@@ -194,7 +194,7 @@ void PoseInput::addPoseOfFrame(sweep_guard_core::Time stamp, bool rests) {
     --waiting_;
     if (!articulated_) record_.received(pose.timestamps);
     const bool outdated = now.checkpoint.epoch < checkpoint_.epoch;  // joints have come meanwhile
-    refuseWhatFails([&] { accept(pose, outdated ? receipt() : now); });
+    refuseWhatFails([&] { accept(pose, outdated ? receipt() : now, rests); });
     if (rests) rested_until_ = pose.timestamps.stamp;
   });
 }
@@ -244,13 +244,14 @@ void PoseInput::begin(const Receipt& receipt) {
   reportRefusal();
 }
 
-// The first transforms of a tool that has rested may be older than the newest pose at rest.
-void PoseInput::accept(ReceivedPose pose, const Receipt& receipt) {
+// Where a tool from tf ceases to rest, its first transforms may be older than its newest pose at rest, and the other way round.
+void PoseInput::accept(ReceivedPose pose, const Receipt& receipt, bool rests) {
   begin(receipt);
-  pose.timestamps.stamp = std::max(pose.timestamps.stamp, rested_until_);
-  const sweep_guard_core::Time stamp = pose.timestamps.stamp;
-  requireStamp(stamp);
   const auto previous = late_.newest();
+  const sweep_guard_core::Time rested_until = rests ? previous.value_or(rested_until_) : rested_until_;
+  const sweep_guard_core::Time stamp = std::max(pose.timestamps.stamp, rested_until);
+  pose.timestamps.stamp = stamp;
+  requireStamp(stamp);
   if (previous && stamp < *previous) {
     throw PoseRefused(sweep_guard_core::kOutOfOrder, "stamp is older than the previous pose's");
   }

@@ -72,7 +72,7 @@ class PoseInput {
   void addPoseOfFrame(sweep_guard_core::Time stamp, bool rests);
   template <typename Accept>
   void refuseWhatFails(const Accept& accept);
-  void accept(ReceivedPose pose, const Receipt& receipt);
+  void accept(ReceivedPose pose, const Receipt& receipt, bool rests = false);
   void acceptJoints(const ros::MessageEvent<const sensor_msgs::JointState>& event);
   Receipt receipt() const;
   void begin(const Receipt& receipt);
