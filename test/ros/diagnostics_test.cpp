@@ -89,7 +89,7 @@ TEST_F(DiagnosticsTest, SayWhichWorkpieceHasCoordinatesThatAreRounded) {
 TEST_F(DiagnosticsTest, SayHowLargeWorkpiecesAreAndHowFarTheToolIs) {
   const auto doubts = [](const std::string& what) {
     return [what](const DiagnosticStatus& status) {
-      return status.level == DiagnosticStatus::WARN && has(status.message, what);
+      return status.level != DiagnosticStatus::OK && has(status.message, what);
     };
   };
   placeSquare("square", {0.0, 0.0, -1.0});
