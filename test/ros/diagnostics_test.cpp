@@ -93,14 +93,14 @@ TEST_F(DiagnosticsTest, SayHowLargeWorkpiecesAreAndHowFarTheToolIs) {
     };
   };
   placeSquare("square", {0.0, 0.0, -1.0});
-  restAt({0.0, 0.0, 0.5});
+  moveTo({0.0, 0.0, 0.5});
   awaitValue("workpieces", "size of 'square'", "0.2 x 0.2 x 0 m, 1.5 m from the tool, nearest so far 1.5 m");
   placeSquare("mesh in mm", {0.0, 0.0, -1.0}, "world", 100.0);
-  restAt({0.0, 0.0, 0.5});
+  moveTo({0.0, 0.0, 0.5});
   probe().awaitStatus("workpieces", doubts("'mesh in mm' is 200 m long: is its mesh in millimeters?"));
   probe().remove("mesh in mm");
   placeSquare("transform in mm", {0.0, 0.0, -299.75});
-  restAt({0.0, 0.0, 0.5});
+  moveTo({0.0, 0.0, 0.5});
   probe().awaitStatus("workpieces", doubts("the tool was never nearer to 'transform in mm' than 300 m"));
 }
 
