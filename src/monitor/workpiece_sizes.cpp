@@ -10,8 +10,8 @@ namespace sweep_guard_core {
 namespace {
 
 constexpr size_t kMaxShown = 20;
-constexpr double kLong = 10.0;  // [m]
-constexpr double kEverNear = 5.0;   // [m]
+constexpr double kLong = 10.0;     // [m]
+constexpr double kEverNear = 5.0;  // [m]
 
 using Distance = ToolDistances::Distance;
 
