@@ -165,7 +165,16 @@ void GuardSteps::publish(const std::shared_ptr<sweep_guard_core::SweepReport>& r
     top_->run([&] { bodies_.moved(pose); });
   }
   top_->run([&] { dependencies_.touches.swept(*report, workpieces); });
+  top_->run([&] { measureDistances(pose, workpieces); });
   forgetFrames();
+}
+
+void GuardSteps::measureDistances(const sweep_guard_core::PoseWithFrames& pose,
+                                  const sweep_guard_core::Workpieces& workpieces) {
+  if (dependencies_.distances == nullptr) return;
+  measured_.clear();
+  for (size_t i = 0; i < pose.bodies.size(); ++i) measured_.push_back(&guard_.tool(i));
+  dependencies_.distances->add(pose, workpieces, std::chrono::steady_clock::now(), measured_);
 }
 
 void GuardSteps::sweepOn() {

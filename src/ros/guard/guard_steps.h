@@ -12,6 +12,7 @@
 #include "guard/cross_check.h"
 #include "guard/intention_store.h"
 #include "guard/prediction_pace.h"
+#include "guard/tool_distances.h"
 #include "guard/workpiece_store.h"
 #include "monitor/sweep_statistics.h"
 #include "monitor/work_queue.h"
@@ -59,6 +60,7 @@ struct GuardThreadDependencies {
   std::function<ToolShapes(const Parameters&)> make_shapes = [](const Parameters& wanted) {
     return ToolShapes(wanted);
   };
+  sweep_guard_core::ToolDistances* distances = nullptr;  ///< null: nobody asks for them
 };
 
 /// A prediction under way, see GuardSteps::beginPrediction().
@@ -128,6 +130,7 @@ class GuardSteps {
   void warn(const sweep_guard_core::SweepReport& report, const sweep_guard_core::QueuedPose& queued);
   void publish(const std::shared_ptr<sweep_guard_core::SweepReport>& report, const sweep_guard_core::QueuedPose& queued,
                const sweep_guard_core::Workpieces& workpieces);
+  void measureDistances(const sweep_guard_core::PoseWithFrames& pose, const sweep_guard_core::Workpieces& workpieces);
   void reportFailures(const std::vector<sweep_guard_core::SweepFailure>& failures);
 
   const GuardThreadDependencies dependencies_;
@@ -150,7 +153,8 @@ class GuardSteps {
     std::set<std::string> frames = {};
   } placed_anew_;                                                 // since then
   std::shared_ptr<const sweep_guard_core::FrameMotions> frames_;  // at the newest sweep or prediction
-  sweep_guard_core::Time frames_known_to_;  // all that are followed, at the newest sweep; at most its pose
+  sweep_guard_core::Time frames_known_to_;               // all that are followed, at the newest sweep; at most its pose
+  std::vector<const sweep_guard_core::Tool*> measured_;  // by measureDistances(): keeps its memory
   sweep_guard_core::Pool<sweep_guard_core::SweepReport> reports_;
   sweep_guard_core::Pool<sweep_guard_core::Prediction> predictions_;
   LogThrottle log_;

@@ -1,5 +1,6 @@
 #include "ros/input/pose_input.h"
 
+#include <algorithm>
 #include <functional>
 #include <utility>
 
@@ -71,7 +72,9 @@ PoseInput::PoseInput(const ros::NodeHandle& node, const LiveParameters& live, co
       moving_frames_(fixed_frame_, {frames_, dependencies.frame_motions, monitor_, queue_, record_}),
       late_(live, frames_),
       path_(fixed_frame_, frames_, dependencies.workpieces, moving_frames_) {
+  if (live.initial().tool_source != ToolSource::kTopic) late_.use(tool_frame_);  // before a pose, for what is refused
   frames_moved_ = frames_.onMove([this] { onFramesMoved(); });
+  transforms_refused_ = frames_.onRefusal([this] { onRefusal(); });
   if (live.initial().articulated) {
     articulated_ = std::make_unique<ArticulatedTool>(live);
     joints_ = subscribeBounded<sensor_msgs::JointState>(
@@ -126,7 +129,6 @@ void PoseInput::acceptJoints(const sensor_msgs::JointState& joints, const std::s
   begin(checkpoint);
   try {
     requireStamp(timestamps.stamp, named);
-    if (live_.initial().tool_source == ToolSource::kJointStates) late_.use(tool_frame_);
     articulated_->add(sender, joints);
   } catch (...) {
     return refuseCaught("joint_states of " + sweep_guard_core::printable(sender) + ": ");
@@ -191,19 +193,36 @@ void PoseInput::reportConflict() {
   log_.error("conflict", conflict);
 }
 
+// A static transform comes once: what it would have moved is not known until a good one comes.
+void PoseInput::reportRefusal() {
+  const std::string refusal = frames_.refusal();
+  if (!refusal.empty()) monitor_.fault(sweep_guard_core::kTfFail, refusal);
+}
+
+// Runs in the thread of the tf listener.
+void PoseInput::onRefusal() {
+  const std::string of_tool = frames_.refusalFor("tool");
+  const std::string refusal = of_tool.empty() ? frames_.refusal() : of_tool;
+  record_.error(refusal, /*refused=*/!of_tool.empty());
+  monitor_.fault(sweep_guard_core::kTfFail, refusal);
+}
+
 // Runs in the thread of the tf listener, or where static transforms are applied, one at a time.
 void PoseInput::onTransforms() {
   const std::optional<sweep_guard_core::Time> newest = frames_.newest(fixed_frame_, tool_frame_);
   if (newest == last_transform_) return;  // another transform has changed
   last_transform_ = newest;
-  if (!newest) return;
+  if (newest && *newest != sweep_guard_core::Time()) addPoseOfFrame(*newest, /*rests=*/false);
+}
+
+void PoseInput::addPoseOfFrame(sweep_guard_core::Time stamp, bool rests) {
   if (waiting_ >= kPosesQueued)
     return monitor_.fault(sweep_guard_core::kPosesUnswept, "tool poses from tf were dropped: too many wait");
-  const sweep_guard_core::Timestamps timestamps{*newest, std::chrono::steady_clock::now()};
+  const sweep_guard_core::Timestamps timestamps{stamp, std::chrono::steady_clock::now()};
   ReceivedPose pose{timestamps, tool_frame_, Eigen::Isometry3d::Identity(), monitor_.checkpoint(),
                     frames_.staticChanges()};
   ++waiting_;
-  thread_.post([this, pose]() mutable {
+  thread_.post([this, pose, rests]() mutable {
     --waiting_;
     if (!articulated_) record_.received(pose.timestamps);
     if (pose.checkpoint.epoch < checkpoint_.epoch) {  // joints have come meanwhile
@@ -211,11 +230,27 @@ void PoseInput::onTransforms() {
       pose.static_changes = frames_.staticChanges();
     }
     try {
-      accept(pose);
+      accept(pose, rests);
     } catch (...) {
       refuseCaught();
     }
+    if (rests) rested_until_ = pose.timestamps.stamp;
   });
+}
+
+// Half of the timeout, if that is shorter: a pose that waits for the processor is not stale yet.
+void PoseInput::addRestingPose() {
+  if (live_.initial().tool_source != ToolSource::kTf) return;
+  const auto parameters = live_.get();
+  const sweep_guard_core::Instant at = now();
+  const auto period = std::min(parameters->guard.cycle, parameters->limits.pose_timeout / 2);
+  const bool waits =
+      at.steady - rested_.steady < period && rested_.stamp <= at.stamp && at.stamp - rested_.stamp < period;
+  if (waits || at.stamp == sweep_guard_core::Time()) return;
+  if (frames_.newest(fixed_frame_, tool_frame_) != sweep_guard_core::Time()) return;
+  rested_ = at;
+  if (frames_.find(fixed_frame_, tool_frame_, at.stamp)) return addPoseOfFrame(at.stamp, /*rests=*/true);
+  refuse(sweep_guard_core::kPoseInvalid, "the transforms to '" + tool_frame_ + "' have the stamp 0: stamp each");
 }
 
 // Refuses an input for the exception that is being handled.
@@ -250,6 +285,7 @@ void PoseInput::begin(const Checkpoint& checkpoint) {
     path_.clear();
     if (articulated_) articulated_->reset();
     jumps_.reset();
+    rested_until_ = {};
   }
   checkpoint_ = checkpoint;
   // After the checkpoint: the sweep to this pose does not end the fault.
@@ -257,13 +293,17 @@ void PoseInput::begin(const Checkpoint& checkpoint) {
     monitor_.fault(sweep_guard_core::kMultiPublisher, "several nodes publish tool poses on " + source_);
   }
   reportConflict();
+  reportRefusal();
 }
 
-void PoseInput::accept(const ReceivedPose& pose) {
+// Where a tool from tf ceases to rest, its first transforms may be older than its newest pose at rest, and the other way round.
+void PoseInput::accept(ReceivedPose pose, bool rests) {
   begin(pose.checkpoint);
-  const sweep_guard_core::Time stamp = pose.timestamps.stamp;
-  requireStamp(stamp);
   const auto previous = late_.newest();
+  const sweep_guard_core::Time rested_until = rests ? previous.value_or(rested_until_) : rested_until_;
+  const sweep_guard_core::Time stamp = std::max(pose.timestamps.stamp, rested_until);
+  pose.timestamps.stamp = stamp;
+  requireStamp(stamp);
   if (previous && stamp < *previous) {
     throw PoseRefused(sweep_guard_core::kOutOfOrder, "stamp is older than the previous pose's");
   }

@@ -50,6 +50,10 @@ class PoseInput {
   /// Applies static transforms that have changed though no pose has come for `timing/pose_timeout`. Any thread.
   void applyLateChanges();
 
+  /// Takes a tool from tf that no transform moves for one at rest: adds its pose of now, at timing/min_rate at least, by either clock.
+  /// To be called often, by one thread.
+  void addRestingPose();
+
  private:
   using Checkpoint = sweep_guard_core::WarningMonitor::Checkpoint;
 
@@ -57,8 +61,11 @@ class PoseInput {
   void countLost(const std::string& publisher, std::uint32_t sequence);
   bool hasSeveralPublishers() const;
   void reportConflict();
+  void reportRefusal();
+  void onRefusal();
   void onTransforms();
-  void accept(const ReceivedPose& pose);
+  void addPoseOfFrame(sweep_guard_core::Time stamp, bool rests);
+  void accept(ReceivedPose pose, bool rests = false);
   void onJoints(const ros::MessageEvent<const sensor_msgs::JointState>& event);
   void passOver(const sensor_msgs::JointState& joints);
   void acceptJoints(const sensor_msgs::JointState& joints, const std::string& sender, const std::string& named);
@@ -88,8 +95,10 @@ class PoseInput {
   Checkpoint checkpoint_;                                 // of the previous input
   sweep_guard_core::ToolJumps jumps_;                     // in the states that come in
   std::optional<sweep_guard_core::Time> last_transform_;  // used by the tf listener's thread only
-  std::string publisher_;                                 // of the previous pose
-  std::uint32_t sequence_ = 0;                            // of the previous pose
+  sweep_guard_core::Instant rested_{};   // when addRestingPose() last added one; used by its thread only
+  sweep_guard_core::Time rested_until_;  // stamp of the newest pose of a tool from tf at rest
+  std::string publisher_;                // of the previous pose
+  std::uint32_t sequence_ = 0;           // of the previous pose
   std::atomic<std::uint64_t> lost_ = 0;
   std::atomic<size_t> waiting_ = 0;  // poses from tf
   LogThrottle log_;
@@ -105,6 +114,7 @@ class PoseInput {
   QueueThread thread_;  // before the subscribers, which use its queue
   std::shared_ptr<void> transforms_changed_;
   std::shared_ptr<void> frames_moved_;
+  std::shared_ptr<void> transforms_refused_;
   BoundedSubscriber subscriber_;
   BoundedSubscriber joints_;
 };

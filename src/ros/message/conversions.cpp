@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <initializer_list>
 #include <limits>
+#include <string>
 
 #include "sweep_guard/common/error.h"
 
@@ -58,12 +61,28 @@ Eigen::Vector3d toEigen(const Vector& v) {
   return {v.x, v.y, v.z};
 }
 
+std::string shortText(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+std::string inBrackets(std::initializer_list<double> values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "(" : ", ") + shortText(value);
+  return text + ")";
+}
+
 Eigen::Isometry3d rigid(const Eigen::Vector3d& translation, const geometry_msgs::Quaternion& rotation) {
   if (!(translation.cwiseAbs().maxCoeff() <= sweep_guard_core::kMaxCoordinate) || translation.hasNaN()) {
-    throw InvalidInput("position is NaN, infinite or beyond 1e7 m");
+    throw InvalidInput("position is NaN, infinite or beyond 1e7 m: " +
+                       inBrackets({translation.x(), translation.y(), translation.z()}));
   }
   const Eigen::Quaterniond q(rotation.w, rotation.x, rotation.y, rotation.z);
-  if (!(std::abs(q.norm() - 1.0) <= 0.1)) throw InvalidInput("orientation is not a unit quaternion");
+  if (!(std::abs(q.norm() - 1.0) <= 0.1)) {
+    throw InvalidInput("orientation is not a unit quaternion: the length of " +
+                       inBrackets({q.x(), q.y(), q.z(), q.w()}) + " is " + shortText(q.norm()));
+  }
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = q.normalized().toRotationMatrix();
   pose.translation() = translation;

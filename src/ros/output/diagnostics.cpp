@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "monitor/workpiece_sizes.h"
 #include "sweep_guard/common/quantile.h"
 #include "sweep_guard/ros/conversions.h"
 
@@ -190,6 +191,11 @@ void Diagnostics::workpieces(Status& status) const {
     status.add("inside of '" + workpiece->id + "'", open);
   }
   for (const std::string& id : parameters->attached) status.add("'" + id + "'", "attached to the tool");
+  const sweep_guard_core::WorkpieceSizes sizes = sweep_guard_core::workpieceSizes(workpieces, state_.distances.get());
+  if (!sizes.doubt.empty()) status.mergeSummary(DiagnosticStatus::WARN, sizes.doubt);
+  for (const auto& [id, size] : sizes.nearest) status.add("size of '" + id + "'", size);
+  const std::string refusal = state_.frames.refusalFor("workpieces");
+  if (!refusal.empty()) status.mergeSummary(DiagnosticStatus::ERROR, refusal);
 }
 
 void Diagnostics::allowed(Status& status) const {
