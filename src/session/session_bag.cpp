@@ -29,7 +29,6 @@ constexpr Duration kMaxDelay = std::chrono::seconds(2);
 constexpr const char* kPoseType = "geometry_msgs/PoseStamped";
 constexpr const char* kMeshType = "sweep_guard/DeformableMesh";
 constexpr const char* kTransforms = "/tf";
-constexpr const char* kStaticTransforms = "/tf_static";
 constexpr const char* kLatched =
     "What is latched, as meshes and static transforms are, is recorded once, in the first part of a split recording: "
     "replay all parts, bag:=FIRST:SECOND, or record with rosbag record --repeat-latched";
@@ -58,7 +57,8 @@ bool hasMeshes(const Types& types) {
 std::string remedyForMesh(const Types& types) {
   std::string remedy = "give mesh:=TOPIC, or mesh_file:=FILE if it was not recorded";
   if (hasMeshes(types)) return remedy;
-  if (types.count(kStaticTransforms) == 0) remedy += std::string("; there is no ") + kStaticTransforms + " either";
+  if (types.count(kStaticTransformsTopic) == 0)
+    remedy += std::string("; there is no ") + kStaticTransformsTopic + " either";
   return remedy + ". " + kLatched;
 }
 
@@ -117,7 +117,7 @@ void readMeshFrames(const SessionFiles& files, const std::string& topic, Frames&
 
 // /tf, which may be long, is read only if /tf_static is not enough.
 void erasePlaced(const SessionFiles& files, Frames& frames) {
-  for (const char* const topic : {kStaticTransforms, kTransforms}) {
+  for (const char* const topic : {kStaticTransformsTopic, kTransforms}) {
     if (frames.empty()) return;
     Frames placed;
     files.forEach({topic}, [&](const rosbag::MessageInstance& message) {
@@ -137,7 +137,7 @@ std::string missingTransforms(const Types& types, const Frames& frames) {
   for (const std::string& frame : frames) {
     names += (names.empty() ? "'" : ", '") + sweep_guard_core::printable(frame) + "'";
   }
-  const bool no_static = types.count(kStaticTransforms) == 0;
+  const bool no_static = types.count(kStaticTransformsTopic) == 0;
   return "no transform of " + names + (no_static ? ", and no topic /tf_static. " : ". ") + kLatched;
 }
 

@@ -9,6 +9,8 @@
 
 namespace sweep_guard_session {
 
+constexpr const char* kStaticTransformsTopic = "/tf_static";
+
 /// Topics of the guard's inputs, as they are named in the bag.
 struct SessionTopics {
   std::string tool_pose;              ///< geometry_msgs/PoseStamped; empty: the pose comes from elsewhere

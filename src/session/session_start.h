@@ -20,7 +20,6 @@ struct SessionStart {
   std::vector<sweep_guard::Intend::ConstPtr> intends;     ///< those not taken back; durations count from the start
 };
 
-constexpr const char* kStaticTransformsTopic = "/tf_static";
 constexpr const char* kIntendTopic = "/sweep_guard/intend_updates";
 
 /// Reads the messages that were recorded before `start`.

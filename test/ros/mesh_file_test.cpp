@@ -437,8 +437,8 @@ TEST_F(MeshFileTest, IsRefusedWithWhatToWrite) {
     const std::string message = refusal([&uri = uri] { locateMesh(uri, {}); });
     EXPECT_TRUE(has(message, expected)) << uri << ": " << message;
   }
-  for (const std::string uri : {std::string("package://robot/../outside/upper_arm.stl"),
-                                "file://" + folder_.path().string() + "/outside/upper_arm.stl"}) {
+  for (const std::string& uri : {std::string("package://robot/../outside/upper_arm.stl"),
+                                 "file://" + folder_.path().string() + "/outside/upper_arm.stl"}) {
     const std::string message = refusal([&uri] { locateMesh(uri, {}); });
     EXPECT_FALSE(has(message, "UPPER_ARM")) << uri << ": " << message;
   }
