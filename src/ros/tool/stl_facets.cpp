@@ -133,7 +133,7 @@ class StlText {
     if (!words_.nextIs("solid")) return false;
     StlWords ahead = words_;
     ahead.skipLine();
-    return ahead.next().empty() || ahead.nextIs("facet") || ahead.nextIs("endsolid") || ahead.nextIs("end");
+    return ahead.nextIs("facet") || ahead.nextIs("endsolid") || ahead.nextIs("end");
   }
 
   std::vector<StlFacet> read() {
