@@ -108,10 +108,10 @@ std::string withoutLeadingSlashes(const std::string& name) {
   return name.substr(std::min(name.find_first_not_of('/'), name.size()));
 }
 
-std::string shown(const std::string& uri) { return sweep_guard_core::printable(uri, kMaxUriShown); }
+std::string printableName(const std::string& uri) { return sweep_guard_core::printable(uri, kMaxUriShown); }
 
 [[noreturn]] void refuseUri(const std::string& uri, const std::string& reason) {
-  throw InvalidInput(shown(uri) + ": " + reason);
+  throw InvalidInput(printableName(uri) + ": " + reason);
 }
 
 // A URI and where its name leads.
@@ -137,7 +137,7 @@ template <typename Allowed>
 std::string remedyForMissing(const Lookup& lookup, const Allowed& allowed) {
   const path similar = similarPath(lookup.folder, percentDecoded(lookup.name));
   if (similar.empty() || !allowed(real(lookup.folder / similar))) return "; add it";
-  return "; upper and lower case count: there is " + shown((lookup.folder / similar).string());
+  return "; upper and lower case count: there is " + printableName((lookup.folder / similar).string());
 }
 
 path locateInPackage(const std::string& uri) {
@@ -149,7 +149,7 @@ path locateInPackage(const std::string& uri) {
   }
   const Lookup lookup{uri, packageFolder(package), name};
   if (lookup.folder.empty()) {
-    refuseUri(uri, "no package '" + shown(package) + "'; add its folder to ROS_PACKAGE_PATH");
+    refuseUri(uri, "no package '" + printableName(package) + "'; add its folder to ROS_PACKAGE_PATH");
   }
   const std::string folder = lookup.folder.string();
   const auto allowed = [&lookup](const path& file) { return inside(file, lookup.folder); };
@@ -189,12 +189,12 @@ path locateFile(const std::string& uri, const std::vector<std::string>& roots) {
 // A robot description has no folder that a path could be relative to.
 std::string whatToWrite(const std::string& uri) {
   if (startsWith(uri, kModelScheme)) {
-    return "write " + shown(kPackageScheme + uri.substr(kModelScheme.size())) +
+    return "write " + printableName(kPackageScheme + uri.substr(kModelScheme.size())) +
            ", and add the folder to ROS_PACKAGE_PATH";
   }
   if (uri.find("://") != std::string::npos) return "write package://NAME/PATH";
-  if (startsWith(uri, "/")) return "write " + shown("file://" + uri);
-  return "write " + shown("package://NAME/" + (startsWith(uri, "./") ? uri.substr(2) : uri));
+  if (startsWith(uri, "/")) return "write " + printableName("file://" + uri);
+  return "write " + printableName("package://NAME/" + (startsWith(uri, "./") ? uri.substr(2) : uri));
 }
 
 }  // namespace
