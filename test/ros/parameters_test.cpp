@@ -547,14 +547,17 @@ TEST_F(ParametersTest, HaveDecimalPointsInEveryLocale) {
   EXPECT_TRUE(has(output, "/sweep_guard/tool/radius is -0.5"));
 }
 
-// urdfdom and rospack would add lines.
+// urdfdom and rospack would add lines. log4cxx would show question marks in place of an umlaut.
 TEST_F(ParametersTest, StopTheNodeWithOneLineForARobotThatMakesNoTool) {
   const auto robot = [](const std::string& shape) {
     return "<robot name='r'><link name='a'><collision><geometry>" + shape + "</geometry></collision></link></robot>";
   };
-  for (const auto& [shape, expected] : {std::pair{"<capsule/>", "capsule"},
-                                        {"<mesh filename='package://nowhere/a.stl'/>", "package 'nowhere'"},
-                                        {"<sphere radius='-1'/>", "link 'a': its sphere's radius is -1"}}) {
+  for (const auto& [shape, expected] :
+       {std::pair{"<capsule/>", "capsule"},
+        {"<mesh filename='package://nowhere/a.stl'/>", "package 'nowhere'"},
+        {"<mesh filename='package://nowhere/\xC3\x84rmel.stl'/>", "package://nowhere/\xC3\x84rmel.stl: no package"},
+        {"<mesh filename='./100%.stl'/>", "./100%.stl: only package:// and file://"},
+        {"<sphere radius='-1'/>", "link 'a': its sphere's radius is -1"}}) {
     ros::param::set("/robot_description", robot(shape));
     const auto [output, status] = runNode("_tool/type:=urdf");
     EXPECT_EQ(status, 2);

@@ -352,10 +352,34 @@ TEST(ToolModelTest, RefusesBadDescriptionsInOneLine) {
   }
 }
 
-// Each of them grows by two bytes. To move the rest for each took 31 s for a mebibyte of them.
+// Each of them grows by three bytes. To move the rest for each took 31 s for a mebibyte of them.
 TEST(ToolModelTest, ReadsADescriptionFullOfPercentSigns) {
   const std::string note = "<note text='" + std::string(size_t{7} << 20U, '%') + "'/>";
   EXPECT_EQ(loadToolModel(robot(link("a", kBall) + note), toolOf("a", {})).pieces.size(), 1U);
+}
+
+// urdfdom takes them for the formats of printf().
+TEST(ToolModelTest, KeepsPercentSignsInNames) {
+  const PackageFolder folder;
+  const std::string wide = "\xEF\xBC\x85";         // another sign, of full width
+  const std::string private_use = "\xEE\x80\x80";  // U+E000
+  for (const std::string& sign : std::vector<std::string>{"%", "%25", "%s", wide, private_use, private_use + "0%"}) {
+    SCOPED_TRACE(sign);
+    const std::string file = "robot/100" + sign + ".obj";
+    const std::string urdf =
+        robot(link("a" + sign) + link("b", collision("<mesh filename='package://" + file + "'/>")) +
+              joint("j" + sign, "revolute", "a" + sign, "b",
+                    "<axis xyz='0 0 1'/><limit lower='-4' upper='4' effort='1' velocity='1'/>"));
+    ToolModelOptions options = toolOf("a" + sign, {"b"});
+    EXPECT_TRUE(has(refusal(urdf, options), "package://" + file + ": no such file"));
+    folder.write(file == "robot/100%25.obj" ? "robot/100%.obj" : file, tetrahedronObj());
+    options.joints = {{"j" + sign, M_PI}};
+    const ToolModel model = loadToolModel(urdf, options);
+    expectBox(model.pieces, {-1, -1, 0}, {0, 0, 1});
+    EXPECT_EQ(model.frame, "a" + sign);
+    EXPECT_EQ(model.joints, options.joints);
+    fs::remove(folder.path() / "robot/100%.obj");
+  }
 }
 
 // They would be below no link, and so left out of every tool.

@@ -20,6 +20,7 @@
 #include "ros/tool/mesh_answer.h"
 #include "ros/tool/mesh_wire.h"
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/common/printable.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -148,16 +149,14 @@ class Reader {
   pid_t process_ = 0;
 };
 
-std::string printable(std::string text) {
-  if (text.size() > kMaxReason) text.resize(kMaxReason);
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, ' ');
-  text.erase(text.find_last_not_of(" .") + 1);
+std::string plainReason(const std::string& answer) {
+  std::string text = sweep_guard_core::printable(answer, kMaxReason);
+  text.erase(text.find_last_not_of(" .?") + 1);
   return text;
 }
 
 std::string failureText(int status, const std::string& answer) {
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 1) return "cannot be read: " + printable(answer);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 1) return "cannot be read: " + plainReason(answer);
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) return "takes too long to read";
   if (WIFSIGNALED(status)) return "crashes mesh_reader (signal " + std::to_string(WTERMSIG(status)) + ")";
   return "cannot be read: mesh_reader ended with status " + std::to_string(WEXITSTATUS(status));
