@@ -163,10 +163,11 @@ void checkGiven(const RobotDescription& robot, const KinematicTree& tree, const 
 
 void checkLimits(const KinematicTree& tree, const std::vector<double>& positions) {
   for (size_t i = 0; i < positions.size(); ++i) {
-    const auto& [name, lower, upper, continuous, velocity] = tree.variables()[i];
-    if (positions[i] >= lower && positions[i] <= upper) continue;
+    const JointVariable& joint = tree.variables()[i];
+    if (positions[i] >= joint.lower && positions[i] <= joint.upper) continue;  // false for NaN
     std::ostringstream text;
-    text << "tool/joints/" << name << " is " << positions[i] << ", beyond the joint's limits, " << shown(lower, upper);
+    text << "tool/joints/" << joint.name << " is " << positions[i] << ", beyond the joint's limits, "
+         << shown(joint.lower, joint.upper);
     throw InvalidInput(text.str());
   }
 }
