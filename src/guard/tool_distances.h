@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sweep_guard/common/mutex.h"
+#include "common/guarded_by.h"
 #include "sweep_guard/common/time.h"
 #include "sweep_guard/geometry/tool.h"
 #include "sweep_guard/guard/pose_with_frames.h"

@@ -11,8 +11,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "common/guarded_by.h"
 #include "ros/threads/gate.h"
-#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 
