@@ -4,6 +4,7 @@
 
 #include "ros/connection/sole_publisher.h"
 #include "ros/input/future_stamp.h"
+#include "ros/motion/absent_guard.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/ros/conversions.h"
@@ -56,7 +57,7 @@ std::shared_ptr<const sweep_guard_core::ToolBalls> toolFrom(const sweep_guard::T
 }  // namespace
 
 GuardInput::GuardInput(const ros::NodeHandle& node, const GuardSource& source)
-    : fixed_frame_(source.fixed_frame), tool_frame_(source.tool_frame), silence_(source.silence) {
+    : guard_(source.guard), fixed_frame_(source.fixed_frame), tool_frame_(source.tool_frame), silence_(source.silence) {
   planes_ = subscribe(node, source.guard + "/proximity", planes_record_, &GuardInput::acceptPlanes);
   tool_ = subscribe(node, source.guard + "/tool_balls", tool_record_, &GuardInput::acceptTool);
   warning_ = subscribe(node, source.guard + "/warning", warning_record_, &GuardInput::acceptWarning);
@@ -96,6 +97,8 @@ std::array<GuardInput::Source, 3> GuardInput::sources() const {
            {tool_.getTopic(), tool_.getNumPublishers(), tool_record_.summary()},
            {warning_.getTopic(), warning_.getNumPublishers(), warning_record_.summary()}}};
 }
+
+std::string GuardInput::absence() const { return warning_.getNumPublishers() > 0 ? "" : absentGuardText(guard_); }
 
 void GuardInput::acceptPlanes(const ros::MessageEvent<const sweep_guard::Proximity>& event) {
   sweep_guard::Proximity::ConstPtr msg = event.getConstMessage();

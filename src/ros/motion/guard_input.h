@@ -42,6 +42,7 @@ class GuardInput {
     sweep_guard_core::InputRecord::Summary record;
   };
   std::array<Source, 3> sources() const;
+  std::string absence() const;  ///< that nobody publishes the warning, and what to do; empty: somebody does
 
  private:
   template <typename Msg>
@@ -55,6 +56,7 @@ class GuardInput {
   void checkStamp(const sweep_guard_core::Timestamps& timestamps) const;
   void checkFrame(const std::string& frame, const std::string& expected) const;
 
+  const std::string guard_;
   const std::string fixed_frame_;
   const std::string tool_frame_;
   const sweep_guard_core::Duration silence_;

@@ -30,9 +30,11 @@ bool silent(const InputRecord::Summary& record) {
 }
 
 void reportGuard(const GuardInput& guard, DiagnosticsLine& line) {
-  line.summary(DiagnosticStatus::OK, "received");
+  const std::string absence = guard.absence();
+  line.summary(absence.empty() ? DiagnosticStatus::OK : DiagnosticStatus::ERROR,
+               absence.empty() ? "received" : absence);
   for (const auto& [topic, publishers, record] : guard.sources()) {
-    if (!record.newest) line.mergeSummary(DiagnosticStatus::ERROR, "nothing received on " + topic);
+    if (absence.empty() && !record.newest) line.mergeSummary(DiagnosticStatus::ERROR, "nothing received on " + topic);
     if (refusedLately(record)) line.mergeSummary(DiagnosticStatus::ERROR, topic + " refused: " + record.last_error);
     if (publishers > 1) line.mergeSummary(DiagnosticStatus::ERROR, "several publishers on " + topic);
     line.add(topic, std::to_string(publishers) + " publishers");
