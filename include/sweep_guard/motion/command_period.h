@@ -43,6 +43,7 @@ class CommandSilence {
 
   void received(SteadyTime now) { newest_ = now; }
 
+  Duration timeout() const { return timeout_; }
   bool silent(SteadyTime now) const { return !newest_ || now - *newest_ > timeout_; }
 
  private:

@@ -79,7 +79,12 @@ class TypedPort : public CommandPort {
   const CommandFrames& frames() const { return frames_; }
   const Msg& newest() const { return *newest_; }
   // Shared, so that no nodelet reads a copy.
-  void publishNewest() { publisher_.publish(newest_); }
+  void publishNewest(bool again) {
+    if (!again) return publisher_.publish(newest_);
+    const auto msg = boost::make_shared<Msg>(*newest_);
+    stampNow(*msg);
+    publisher_.publish(boost::shared_ptr<const Msg>(msg));
+  }
   void publish(const boost::shared_ptr<const Msg>& msg) { publisher_.publish(msg); }
 
  private:
@@ -108,13 +113,14 @@ class TwistPort : public TypedPort<Msg> {
     return command;
   }
 
-  void send(const GuardedMotion& motion) override {
+  void send(const GuardedMotion& motion, bool again) override {
     const Twist& let_through_W = motion.twist_W;
-    if (let_through_W == commanded_W_) return this->publishNewest();
+    if (let_through_W == commanded_W_) return this->publishNewest(again);
     const auto msg = boost::make_shared<Msg>(this->newest());
     geometry_msgs::Twist& twist = twistOf(*msg);
     twist.linear = vectorMsg<geometry_msgs::Vector3>(R_WC_.transpose() * let_through_W.v_W / linear_scale_);
     twist.angular = vectorMsg<geometry_msgs::Vector3>(R_WC_.transpose() * let_through_W.w_W / angular_scale_);
+    if (again) stampNow(*msg);
     this->publish(msg);
   }
 
@@ -137,10 +143,12 @@ class PosePort : public TypedPort<geometry_msgs::PoseStamped> {
   PosePort(const ros::NodeHandle& node, const MotionParameters& parameters, const CommandFrames& frames,
            Callbacks callbacks)
       : TypedPort(node, frames, std::move(callbacks)),
+        repeats_(parameters.follower.mode == sweep_guard_core::PoseMode::kAbsolute),
         silence_(parameters.options.permission.silence),
         follower_(parameters.follower) {}
 
   bool isPose() const override { return true; }
+  bool repeats() const override { return repeats_; }
 
   MotionCommand read(const MotionInputs& known, const Cycle& cycle) override {
     if (!known.pose) throw FrameError("no tool pose yet");
@@ -157,14 +165,14 @@ class PosePort : public TypedPort<geometry_msgs::PoseStamped> {
     return command;
   }
 
-  void send(const GuardedMotion& motion) override {
+  void send(const GuardedMotion& motion, bool again) override {
     if (motion.decision.permission == sweep_guard_core::Permission::kStop) {
       follower_.hold(tool_is_fresh_);
     } else {
       follower_.moveOn(motion.twist_W);
     }
-    if (follower_.reached()) return publishNewest();
-    publishSent(newest().header.stamp);
+    if (follower_.reached()) return publishNewest(again);
+    publishSent(again ? ros::Time::now() : newest().header.stamp);
   }
 
   void sendZero(const MotionInputs& known, const Cycle& cycle) override {
@@ -216,6 +224,7 @@ class PosePort : public TypedPort<geometry_msgs::PoseStamped> {
     publish(msg);
   }
 
+  const bool repeats_;
   const Duration silence_;  // of the tool: an older pose does not show where it is
   sweep_guard_core::PoseFollower follower_;
   bool tool_is_fresh_ = false;

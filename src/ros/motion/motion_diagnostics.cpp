@@ -35,6 +35,8 @@ void MotionDiagnostics::command(Status& status) const {
   const CommandPort& port = sources_.cycle.port();
   const sweep_guard_core::InputRecord::Summary record = sources_.cycle.record().summary();
   status.summary(DiagnosticStatus::OK, silent(record) ? "no command now" : "received");
+  const std::string rarity = sources_.cycle.rarity();
+  if (!rarity.empty()) status.summary(DiagnosticStatus::WARN, rarity);
   if (port.commandPublishers() == 0) status.summary(DiagnosticStatus::WARN, "no publisher on " + port.commandTopic());
   if (port.commandPublishers() > 1) {
     status.summary(DiagnosticStatus::WARN, "several publishers on " + port.commandTopic() + ": use a multiplexer");
