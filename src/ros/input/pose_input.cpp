@@ -131,6 +131,7 @@ void PoseInput::pushKnownPoses(sweep_guard_core::SteadyTime received, const Chec
 }
 
 std::string PoseInput::jumpTo(const ArticulatedTool::Pose& state) {
+  repeated_.add(state.X_WT, state.state.positions);
   std::string jump = jumps_.jumpTo(state);
   const std::string faster = jumps_.faster();
   if (!faster.empty()) record_.warn(faster);
