@@ -47,9 +47,9 @@ std::string CommandGaps::rarity(SteadyTime now) const {
 
 std::string CommandGaps::tooOld(const Instant& now) const {
   assert(newest_);
-  std::string rare = rarity(now.steady);
-  if (!rare.empty()) return rare;
   const bool by_stamp = now.steady - newest_->received <= timeout_;
+  std::string rare = by_stamp ? "" : rarity(now.steady);
+  if (!rare.empty()) return rare;
   const Duration age = by_stamp ? now.stamp - newest_->stamp : now.steady - newest_->received;
   return (by_stamp ? "the stamp of the newest command is " : "the newest command is ") + secondsText(age) +
          " old, and " + parameter_ + " is " + secondsText(timeout_) +
