@@ -41,8 +41,8 @@ TEST_F(DropInTest, ASlowOperatorsRobotMovesAllOfTheTime) {
     commands.send(command);
     controller.commands().await("the whole command", [&](const Twist& next) { return next == command; });
     int zeros = 0;
-    for (int i = 0; i < 20; ++i) zeros += isZero(controller.commands().next()) ? 1 : 0;
-    EXPECT_LE(zeros, 5) << "they are four of five where zero is sent in between";
+    for (int i = 0; i < 15; ++i) zeros += isZero(controller.commands().next()) ? 1 : 0;
+    EXPECT_LE(zeros, 4) << "they are four of five where zero is sent in between";
   }
 }
 
