@@ -248,13 +248,13 @@ struct SlowNode {
 
   // Each is counted.
   std::function<void(const ros::Time&)> commands(const Twist& twist) const {
-    return slowly([publisher = publisher, count = count, twist](const ros::Time& now) {
+    return slowly([out = publisher, counted = count, twist](const ros::Time& now) {
       TwistStamped stamped;
       stamped.header.frame_id = "world";
       stamped.header.stamp = now;
       stamped.twist = twist;
-      publisher.publish(stamped);
-      ++*count;
+      out.publish(stamped);
+      ++*counted;
     });
   }
 
