@@ -142,7 +142,7 @@ void computeWarning(const WarningInputs& inputs, const Instant& now, const Warni
   warning.covered_until = inputs.covered_until;
   const size_t length = warning.text.size();
   warn(inputs, now, limits, warning);
-  if (inputs.contact && (inputs.contact->lasting || now.steady - inputs.contact->found <= limits.hold_time)) {
+  if (inputs.contact && (inputs.contact->lasting || limits.hold(now.steady - inputs.contact->found))) {
     warning.text.erase(0, warning.text.size() - length);
     setContact(inputs, now, warning);
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "monitor/faults.h"
-#include "monitor/late_frames.h"
 #include "monitor/swept_workpieces.h"
 #include "monitor/workpiece_warnings.h"
 #include "sweep_guard/common/printable.h"
@@ -19,7 +18,6 @@ WarningMonitor::WarningMonitor(const WarningLimits& limits, std::function<void()
       hung_(std::move(hung)),
       limits_(limits),
       faults_(std::make_unique<Faults>(inputs_)),
-      late_frames_(std::make_unique<LateFrames>(inputs_)),
       workpieces_(std::make_unique<SweptWorkpieces>(inputs_)),
       warnings_(std::make_unique<WorkpieceWarnings>(inputs_, limits_)),
       refused_meshes_(std::make_unique<Refusals>()),

@@ -117,7 +117,7 @@ Workpiece Workpiece::hull(int triangles, const Options& options) {
 }
 
 Workpiece Workpiece::fromFile(const std::string& path, const Options& options) {
-  sweep_guard_ros::MeshSurface surface = sweep_guard_ros::readMesh(path, sweep_guard_ros::SymbolicLinks::kFollow);
+  sweep_guard_ros::MeshSurface surface = sweep_guard_ros::readMesh(path, /*follow_link=*/true);
   try {
     Workpiece workpiece(surface.vertices, std::move(surface.triangles), options);
     workpiece.makeSway(options);

@@ -144,7 +144,10 @@ std::vector<std::pair<WarningInputs, std::uint32_t>> inputsAndReasons() {
   add(kNotSwept, [](WarningInputs& inputs) { inputs.objects = {object(20ms, /*swept=*/false)}; });
   add(kNotCovered, [](WarningInputs& inputs) { inputs.covered_until = kNow.stamp + 999ms; });
   add(kDetectorFault, [](WarningInputs& inputs) { inputs.faults[kDetectorFault] = "no canary"; });
-  add(kOverload, [](WarningInputs& inputs) { inputs.overload = WarningInputs::Backlog{50ms, kNow.steady}; });
+  add(kOverload, [](WarningInputs& inputs) {
+    inputs.overload = kNow.steady;
+    inputs.backlog = 50ms;
+  });
   return all;
 }
 

@@ -24,25 +24,25 @@ CommandCycle::CommandCycle(const ros::NodeHandle& node, const ros::NodeHandle& p
                            const MotionParameters& parameters, const CommandCycleSources& sources)
     : parameters_(parameters),
       sources_(sources),
-      frames_(sources.frames, parameters),
       topic_(node.resolveName(CommandPort::kTopic)),
       guard_(parameters.options),
-      period_(parameters.options.permission.command_timeout),
-      gaps_(parameters.options.permission.command_timeout, "command_timeout"),
-      port_(makeCommandPort(thread_.on(node), parameters, frames_,
-                            {[this](const auto& received) { onCommand(received); },
-                             [this](const std::string& reason) { refuse(reason); }})),
+      period_(parameters.options.command_timeout),
+      gaps_(parameters.options.command_timeout, "command_timeout"),
+      port_(makeCommandPort(
+          thread_.on(node), parameters, sources.frames,
+          [this](const auto& message, const auto& at) { onCommand(message, at); },
+          [this](const std::string& reason) { refuse(reason); })),
       rebase_(advertiseRebase(thread_.on(private_node))) {}
 
-void CommandCycle::onCommand(const CommandPort::Received& received) {
-  record_.received(received.timestamps);
+void CommandCycle::onCommand(const CommandPort::Message& message, const sweep_guard_core::Timestamps& timestamps) {
+  record_.received(timestamps);
   const sweep_guard_core::Lock lock(mutex_);
-  port_->take(received);
-  period_.add(received.timestamps.received);
-  gaps_.received(received.timestamps);
+  port_->take(message);
+  period_.add(timestamps.received);
+  gaps_.received(timestamps);
   const Instant at = now();
   if (!command_) sent_ = at.steady;  // the first one after a pause: a pose moves on only from the second one on
-  command_ = received.timestamps;
+  command_ = timestamps;
   halts_ = 0;
   limitNewest(at, Sending::kNew);
 }
@@ -77,18 +77,16 @@ void CommandCycle::publishHold(HoldPublisher& hold) {
 
 void CommandCycle::update(const Instant& at) {
   if (!command_) return;
-  if (at.steady - command_->received > parameters_.options.permission.command_timeout) return halt(at);
+  if (at.steady - command_->received > parameters_.options.command_timeout) return halt(at);
   if (!sent_W_) return;  // refused
-  GuardInput::Newest newest = sources_.guard.newest();
-  const bool decided_anew = guard_.permission(takeInputs(newest), *command_, at).permission != permission_;
+  const bool decided_anew = guard_.permission(inputs(), *command_, at).permission != permission_;
   const bool late = !port_->isPose() && at.steady - sent_ > kLate * period_.longest();
   const bool repeats = port_->repeats() && at.steady - published_ >= kRepeatPeriod;
   if (decided_anew || late || repeats) limitNewest(at, repeats ? Sending::kRepeated : Sending::kIfChanged);
 }
 
 bool CommandCycle::letsThrough(const Instant& at) const {
-  GuardInput::Newest newest = sources_.guard.newest();
-  return guard_.permission(takeInputs(newest), {at.stamp, at.steady}, at).permission != Permission::kStop;
+  return guard_.permission(inputs(), {at.stamp, at.steady}, at).permission != Permission::kStop;
 }
 
 // A command that is late or repeated is limited again at the next tick.
@@ -118,8 +116,7 @@ ros::ServiceServer CommandCycle::advertiseRebase(ros::NodeHandle node) {
 }
 
 bool CommandCycle::onRebase(Trigger::Request& /*request*/, Trigger::Response& response) {
-  response.success = parameters_.command_type == CommandType::kPoseStamped &&
-                     parameters_.follower.mode == sweep_guard_core::PoseMode::kIncremental;
+  response.success = parameters_.command_type == CommandType::kPoseStamped && parameters_.incremental;
   response.message = response.success ? "the next pose moves nothing"
                                       : "command_type is not pose_stamped, or command_mode is not incremental";
   const sweep_guard_core::Lock lock(mutex_);
@@ -127,14 +124,15 @@ bool CommandCycle::onRebase(Trigger::Request& /*request*/, Trigger::Response& re
   return true;
 }
 
-sweep_guard_core::MotionInputs CommandCycle::takeInputs(GuardInput::Newest& newest) const {
-  newest.inputs.pose = sources_.tool_pose.newest();
-  return std::move(newest.inputs);
+sweep_guard_core::MotionInputs CommandCycle::inputs(sweep_guard::Proximity::ConstPtr* planes) const {
+  sweep_guard_core::MotionInputs inputs = sources_.guard.inputs(planes);
+  inputs.pose = sources_.tool_pose.newest();
+  return inputs;
 }
 
 void CommandCycle::limitNewest(const Instant& at, Sending sending) {
-  GuardInput::Newest newest = sources_.guard.newest();
-  const sweep_guard_core::MotionInputs known = takeInputs(newest);
+  sweep_guard::Proximity::ConstPtr planes;
+  const sweep_guard_core::MotionInputs known = inputs(&planes);
   if (waitsForRelease(known, at)) return sendZero(at);
   try {
     sweep_guard_core::MotionCommand command = port_->read(known, cycleAt(at));
@@ -147,7 +145,7 @@ void CommandCycle::limitNewest(const Instant& at, Sending sending) {
     }
     sent_W_ = motion.twist_W;
     permission_ = motion.decision.permission;
-    sweep_guard::MotionStatus status = statusOf(motion, newest.planes.get(), port_->standingLead());
+    sweep_guard::MotionStatus status = statusOf(motion, planes.get(), port_->standingLead());
     explain(motion.decision.cause, at, status);
     sources_.status.update(std::move(status));
   } catch (const sweep_guard_core::Error& error) {
@@ -179,8 +177,7 @@ bool CommandCycle::waitsForRelease(const sweep_guard_core::MotionInputs& known, 
 
 void CommandCycle::sendZero(const Instant& at) {
   guard_.stop(at.steady);
-  GuardInput::Newest newest = sources_.guard.newest();
-  port_->sendZero(takeInputs(newest), cycleAt(at));
+  port_->sendZero(inputs(), cycleAt(at));
   sent_W_.reset();
   permission_ = Permission::kStop;
   sent_ = at.steady;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "common/guarded_by.h"
 #include "monitor/input_record.h"
 #include "ros/motion/command_frames.h"
 #include "ros/motion/command_port.h"
@@ -16,7 +17,6 @@
 #include "ros/motion/status_publisher.h"
 #include "ros/motion/tool_pose_input.h"
 #include "ros/threads/queue_thread.h"
-#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/motion/command_gaps.h"
 #include "sweep_guard/motion/command_period.h"
 #include "sweep_guard/motion/motion_guard.h"
@@ -62,7 +62,7 @@ class CommandCycle {
   using Trigger = std_srvs::Trigger;
   enum class Sending { kNew, kRepeated, kIfChanged };
 
-  void onCommand(const CommandPort::Received& received);
+  void onCommand(const CommandPort::Message& message, const sweep_guard_core::Timestamps& timestamps);
   void refuse(const std::string& reason);
   ros::ServiceServer advertiseRebase(ros::NodeHandle node);
   bool onRebase(Trigger::Request& request, Trigger::Response& response);
@@ -70,7 +70,7 @@ class CommandCycle {
   bool letsThrough(const sweep_guard_core::Instant& at) const REQUIRES(mutex_);
   sweep_guard_core::Duration longestInForce() const REQUIRES(mutex_);
   CommandPort::Cycle cycleAt(const sweep_guard_core::Instant& at) const REQUIRES(mutex_);
-  sweep_guard_core::MotionInputs takeInputs(GuardInput::Newest& newest) const;
+  sweep_guard_core::MotionInputs inputs(sweep_guard::Proximity::ConstPtr* planes = nullptr) const;
   void limitNewest(const sweep_guard_core::Instant& at, Sending sending) REQUIRES(mutex_);
   void explain(sweep_guard_core::PermissionCause cause, const sweep_guard_core::Instant& at,
                sweep_guard::MotionStatus& status) const REQUIRES(mutex_);
@@ -81,7 +81,6 @@ class CommandCycle {
 
   const MotionParameters& parameters_;
   const CommandCycleSources sources_;
-  const CommandFrames frames_;
   const std::string topic_;  // resolved, of the commands
   sweep_guard_core::InputRecord record_;
   LogThrottle log_;

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "ros/motion/guard_source.h"
+#include "ros/motion/pose_source.h"
 
 namespace sweep_guard_ros {
 

@@ -54,8 +54,8 @@ ZeroOnSilence::ZeroOnSilence(const ros::NodeHandle& node, const ros::NodeHandle&
 
 ZeroOnSilence::ZeroOnSilence(const ros::NodeHandle& node, const ros::NodeHandle& private_node, ParameterReader read)
     : master_watch_(private_node, [this] { return settings_; }),
-      silence_(sweep_guard_core::fromSeconds(read.number("timeout", 0.1, {0.01, 1.0, "s"}))),
-      gaps_(silence_.timeout(), "timeout"),
+      timeout_(sweep_guard_core::fromSeconds(read.number("timeout", 0.1, {0.01, 1.0, "s"}))),
+      gaps_(timeout_, "timeout"),
       updater_(node, private_node, private_node.getNamespace()),
       supervisor_(Process::kOwn) {
   const std::string type = read.choice("command_type", "twist", {"twist", "twist_stamped", "wrench_stamped"});
@@ -108,7 +108,7 @@ void ZeroOnSilence::pass(const boost::shared_ptr<const Msg>& command) {
   const sweep_guard_core::Lock lock(mutex_);
   if (stopping_) return;
   const sweep_guard_core::SteadyTime received = std::chrono::steady_clock::now();
-  silence_.received(received);
+  newest_ = received;
   gaps_.received({sweep_guard_core::Time(), received});
   output_.publish(command);
   ++passed_;
@@ -124,14 +124,14 @@ void ZeroOnSilence::refuse(const std::string& reason) {
 
 void ZeroOnSilence::sendZeroIfSilent() {
   const sweep_guard_core::Lock lock(mutex_);
-  if (silence_.silent(std::chrono::steady_clock::now())) send_zero_();
+  if (sweep_guard_core::isSilent(newest_, timeout_, std::chrono::steady_clock::now())) send_zero_();
 }
 
 void ZeroOnSilence::report(Status& status) {
   const std::vector<std::string> others = output_watch_->otherPublishers();
   const sweep_guard_core::Lock lock(mutex_);
   const sweep_guard_core::SteadyTime now = std::chrono::steady_clock::now();
-  const bool silent = silence_.silent(now);
+  const bool silent = sweep_guard_core::isSilent(newest_, timeout_, now);
   const std::string rarity = gaps_.rarity(now);
   status.summary(silent ? DiagnosticStatus::WARN : DiagnosticStatus::OK,
                  silent ? "no command: zero is sent" : "passed on");

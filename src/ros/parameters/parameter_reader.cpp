@@ -40,12 +40,12 @@ void ParameterReader::describe(ParameterInfo info) {
 }
 
 double ParameterReader::number(const std::string& key, double fallback, const Range& range, const std::string& effect,
-                               const std::optional<Bound>& bound) {
+                               const std::optional<Range>& narrowed) {
   XmlRpc::XmlRpcValue value;
   if (!get(key, value)) value = fallback;
-  const Range& narrowest = bound ? bound->range : range;
+  const Range& narrowest = narrowed ? *narrowed : range;
   if (!within(toNumber(value), narrowest))
-    refuse(key, value, shown(narrowest) + (bound ? std::string(": ") + bound->note : ""));
+    refuse(key, value, shown(narrowest) + (narrowed ? std::string(": ") + narrowed->note : ""));
   describe(
       {key, toNumber(value), fallback, range.lowest, range.highest, {}, sweep_guard_ros::described(range), effect});
   return toNumber(value);
@@ -221,6 +221,26 @@ std::map<std::string, double> ParameterReader::numbers(const std::string& key, c
   }
   describe({key, "{" + entries + "}", std::string("{}"), 0.0, 0.0, {}, wanted, effect});
   return numbers;
+}
+
+std::map<std::string, std::string> ParameterReader::textsByName(const std::string& key, const std::string& effect) {
+  XmlRpc::XmlRpcValue value;
+  const std::string wanted = "a group of texts, or {}";
+  std::map<std::string, std::string> texts;
+  std::string entries;
+  if (get(key, value)) {
+    if (value.getType() != XmlRpc::XmlRpcValue::TypeStruct) refuse(key, value, wanted);
+    for (auto& [name, entry] : value) {
+      const std::string entry_key = std::string(key).append("/").append(name);
+      read_.insert(entry_key);
+      if (entry.getType() != XmlRpc::XmlRpcValue::TypeString) refuse(entry_key, entry, "a text");
+      texts[name] = static_cast<std::string>(entry);
+      if (texts[name].empty()) refuse(entry_key, entry, "a text, not empty");
+      entries += (entries.empty() ? "" : ", ") + name + ": " + texts[name];
+    }
+  }
+  describe({key, "{" + entries + "}", std::string("{}"), 0.0, 0.0, {}, wanted, effect});
+  return texts;
 }
 
 std::map<std::string, bool> ParameterReader::flagsOf(const std::string& key, const std::string& flag,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -12,6 +13,7 @@ namespace sweep_guard_ros {
 namespace {
 
 using sweep_guard_core::InvalidInput;
+using sweep_guard_core::JointsBesideTree;
 using sweep_guard_core::JointType;
 using sweep_guard_core::JointVariable;
 using sweep_guard_core::KinematicTree;
@@ -174,6 +176,44 @@ void checkGiven(const RobotDescription& robot, const KinematicTree& tree, const 
   throw InvalidInput("joint '" + name + "' mimics '" + joint->mimic->joint_name + "': set that joint in tool/joints");
 }
 
+void checkLimits(const KinematicTree& tree, const std::vector<double>& positions) {
+  for (size_t i = 0; i < positions.size(); ++i) {
+    const auto& [name, lower, upper, continuous, velocity] = tree.variables()[i];
+    if (positions[i] >= lower && positions[i] <= upper) continue;
+    std::ostringstream text;
+    text << "tool/joints/" << name << " is " << positions[i] << ", beyond the joint's limits, " << shown(lower, upper);
+    throw InvalidInput(text.str());
+  }
+}
+
+// Of the joints that move the link, and of those that they mimic.
+std::set<std::string> namesOfMovers(const RobotDescription& robot, const urdf::Link& link) {
+  std::set<std::string> names;
+  for (const urdf::Joint* joint : jointsAbove(robot, link)) {
+    if (joint->type == urdf::Joint::FIXED) continue;
+    bool is_new = names.insert(joint->name).second;
+    while (is_new && joint != nullptr && joint->mimic) {
+      is_new = names.insert(joint->mimic->joint_name).second;
+      joint = robot.joint(joint->mimic->joint_name);
+    }
+  }
+  return names;
+}
+
+JointsBesideTree jointsBeside(const RobotDescription& robot, const urdf::Link& frame, const KinematicTree& tree) {
+  JointsBesideTree beside{namesOfMovers(robot, frame), {}};
+  std::set<std::string> known = beside.of_frame;
+  for (const JointVariable& variable : tree.variables()) known.insert(variable.name);
+  for (const TreeLink& link : tree.links()) {
+    if (link.moves()) known.insert(link.joint);
+  }
+  for (const urdf::Link* link : RobotDescription::subtree(robot.root())) {
+    if (link->parent_joint && known.count(link->parent_joint->name) == 0)
+      beside.elsewhere.insert(link->parent_joint->name);
+  }
+  return beside;
+}
+
 }  // namespace
 
 RobotTree treeOf(const RobotDescription& robot, const urdf::Link& frame, const std::vector<const urdf::Link*>& links) {
@@ -183,7 +223,9 @@ RobotTree treeOf(const RobotDescription& robot, const urdf::Link& frame, const s
   TreeBuilder builder(robot);
   std::vector<size_t> ends;
   for (const Joints& path : paths) ends.push_back(builder.add(path));
-  return {builder.tree(), ends.front(), {ends.begin() + 1, ends.end()}};
+  KinematicTree tree = builder.tree();
+  JointsBesideTree beside = jointsBeside(robot, frame, tree);
+  return {std::move(tree), ends.front(), {ends.begin() + 1, ends.end()}, std::move(beside)};
 }
 
 std::vector<double> positionsOf(const RobotDescription& robot, const KinematicTree& tree,
@@ -194,7 +236,7 @@ std::vector<double> positionsOf(const RobotDescription& robot, const KinematicTr
     const auto found = given.find(tree.variables()[i].name);
     if (found != given.end()) positions[i] = found->second;
   }
-  checkLimits(tree, positions, "tool/joints/");
+  checkLimits(tree, positions);
   return positions;
 }
 
@@ -204,16 +246,12 @@ size_t variableNamed(const KinematicTree& tree, const std::string& joint) {
     if (tree.variables()[i].name == joint) return i;
     known += (i == 0 ? "" : ", ") + tree.variables()[i].name;
   }
+  for (const TreeLink& link : tree.links()) {
+    if (link.joint != joint || !link.moves()) continue;
+    throw InvalidInput("joint '" + joint + "' mimics '" + tree.variables()[link.variable].name + "': name that joint");
+  }
   throw InvalidInput("no joint '" + sweep_guard_core::printable(joint) +
                      "' moves the tool's links: " + (known.empty() ? "none does" : "those that do are " + known));
-}
-
-void checkLimits(const KinematicTree& tree, const std::vector<double>& positions, const std::string& where) {
-  for (size_t i = 0; i < positions.size(); ++i) {
-    const auto& [name, lower, upper, continuous, velocity] = tree.variables()[i];
-    if (positions[i] >= lower && positions[i] <= upper) continue;  // false for NaN
-    throw InvalidInput(where + name + " is beyond the joint's limits, " + shown(lower, upper));
-  }
 }
 
 }  // namespace sweep_guard_ros
