@@ -5,6 +5,8 @@
 #include "monitor/faults.h"
 #include "monitor/swept_workpieces.h"
 #include "monitor/workpiece_warnings.h"
+#include "sweep_guard/common/printable.h"
+#include "sweep_guard/geometry/tool.h"
 
 namespace sweep_guard_core {
 
@@ -140,6 +142,13 @@ bool WarningMonitor::isToBeSwept(const Checkpoint& checkpoint) const {
 
 bool WarningMonitor::isToBeSweptLocked(const Checkpoint& checkpoint) const {
   return checkpoint.epoch >= first_epoch_ && !inputs_.disabled_by && !inputs_.ended;
+}
+
+void WarningMonitor::setTool(const Tool& tool) {
+  std::vector<std::string> links;
+  for (const ConvexPiece& piece : tool.pieces()) links.push_back(printable(piece.link));
+  const Lock lock(mutex_);
+  inputs_.links.swap(links);
 }
 
 void WarningMonitor::setLimits(const WarningLimits& limits) {

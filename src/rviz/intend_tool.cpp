@@ -40,9 +40,9 @@ rviz::FloatProperty* length(const char* name, float value, const char* descripti
 IntendTool::IntendTool() {
   shortcut_key_ = 'u';
   rviz::Property* const parent = getPropertyContainer();
-  guard_ = new rviz::StringProperty("Guard", "/sweep_guard", "Name of the guard's node.", parent);
-  mesh_topic_ = topicProperty<sweep_guard::DeformableMesh>("Mesh Topic", "/mesh", "Meshes of the workpieces.", parent);
-  vertices_topic_ = topicProperty<sweep_guard::MeshVertices>("Vertices Topic", "/mesh_vertices",
+  guard_ = new rviz::StringProperty("Guard", "sweep_guard", "Name of the guard's node.", parent);
+  mesh_topic_ = topicProperty<sweep_guard::DeformableMesh>("Mesh Topic", "mesh", "Meshes of the workpieces.", parent);
+  vertices_topic_ = topicProperty<sweep_guard::MeshVertices>("Vertices Topic", "mesh_vertices",
                                                              "Deformations of the meshes.", parent);
   radius_ = length("Radius", 0.005F, "[m] of the brush: triangles that lie wholly inside are meant.", parent);
   depth_ = length("Depth", 0.01F, "[m] that the tool may reach behind the surface.", parent);

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "common/number_text.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_simulation {
@@ -37,8 +38,8 @@ Eigen::Vector3d sines(double t, const Eigen::Vector3d& frequencies) {
 
 void requireWithin(const char* name, double value, double min, double max) {
   if (value >= min && value <= max) return;
-  throw InvalidInput(std::string(name) + " is " + std::to_string(value) + ", must be in [" + std::to_string(min) +
-                     ", " + std::to_string(max) + "]");
+  throw InvalidInput(std::string(name) + " is " + sweep_guard_core::shortText(value) + ", must be in [" +
+                     sweep_guard_core::shortText(min) + ", " + sweep_guard_core::shortText(max) + "]");
 }
 
 }  // namespace

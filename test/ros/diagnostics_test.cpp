@@ -96,6 +96,18 @@ TEST_F(DiagnosticsTest, EachInputReportsTopicPublishersAndAge) {
   EXPECT_EQ(valueOf(workpieces, "'square'").find("revision 1, 2 triangles in 'world'"), 0U);
 }
 
+TEST_F(DiagnosticsTest, SayWhichShareOfThePosesRepeatsTheOneBefore) {
+  placeSquare("square", {0.0, 0.0, -1.0});
+  std::string share;
+  for (int i = 0; i < 10 && (share.empty() || share == "0"); ++i) {
+    restAt({0.0, 0.0, 0.5});
+    share = valueOf(probe().awaitStatus("tool pose", any), "repeated positions [%]");
+  }
+  ASSERT_FALSE(share.empty());
+  EXPECT_GT(std::stod(share), 0.0);
+  EXPECT_LE(std::stod(share), 100.0);
+}
+
 TEST_F(DiagnosticsTest, SayWhichWorkpieceHasCoordinatesThatAreRounded) {
   placeSquare("square", {0.0, 0.0, -1.0});
   probe().place(squareMovedTo("square", {0.0, 0.0, -1.0}, probe().time()));

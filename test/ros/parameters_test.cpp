@@ -330,6 +330,24 @@ TEST_F(ParametersTest, TheSlowestJointDecidesHowOldAPoseMayBe) {
   EXPECT_TRUE(has(refusal(node_), "no joint 'closing' moves the tool's links"));
 }
 
+TEST_F(ParametersTest, TheNameOfANodeIsResolvedInTheNamespaceOfTheNodeThatReadsIt) {
+  const auto read = [](const std::string& reader, const std::string& set) {
+    const ros::NodeHandle node("/guarded" + reader);
+    if (!set.empty()) node.setParam("guard", set);
+    return ParameterReader(node).node("guard", "sweep_guard");
+  };
+  EXPECT_EQ(read("/motion_guard", ""), "/guarded/sweep_guard");
+  EXPECT_EQ(read("/arm/motion_guard", ""), "/guarded/arm/sweep_guard");
+  EXPECT_EQ(read("/motion_guard", "left/guard"), "/guarded/left/guard");
+  EXPECT_EQ(read("/motion_guard", "/sweep_guard"), "/sweep_guard");
+  try {
+    read("/motion_guard", "a guard");
+    FAIL();
+  } catch (const sweep_guard_core::InvalidInput& error) {
+    EXPECT_TRUE(has(error.what(), "parameter guard has no name of a node")) << error.what();
+  }
+}
+
 // doc/interface.md and config/sweep_guard.yaml are generated from the descriptions.
 TEST_F(ParametersTest, AreAllDescribedWithTheirEffect) {
   const Parameters loaded = loadParameters(node_);

@@ -163,6 +163,23 @@ TEST(ToolModelTest, ClosesBothFingersOfAGripper) {
   EXPECT_TRUE(has(refusal(urdf, options), "mimics 'l'"));
 }
 
+TEST(ToolModelTest, JointsThatMimicEachOtherAreRefusedByTheirNames) {
+  const std::string limit = "<limit lower='0' upper='0.05' velocity='1' effort='1'/>";
+  const auto refusalOf = [&](const std::vector<std::pair<std::string, std::string>>& mimics) {
+    std::string elements = link("hand", kBall);
+    for (const auto& [name, leader] : mimics) {
+      elements += link(name + "_link", kBall) +
+                  joint(name, "prismatic", "hand", name + "_link", limit + "<mimic joint='" + leader + "'/>");
+    }
+    return refusal(robot(elements), toolOf("hand", {mimics.front().first + "_link"}));
+  };
+  EXPECT_TRUE(has(refusalOf({{"knuckle", "tip"}, {"tip", "knuckle"}}), "joints 'knuckle' and 'tip' mimic each other"));
+  EXPECT_TRUE(has(refusalOf({{"a", "b"}, {"b", "c"}, {"c", "b"}}), "joints 'b' and 'c' mimic each other"));
+  EXPECT_TRUE(has(refusalOf({{"a", "b"}, {"b", "c"}, {"c", "a"}}), "joints 'a', 'b' and 'c' mimic each other"));
+  EXPECT_TRUE(has(refusalOf({{"a", "a"}}), "joint 'a' mimics itself"));
+  EXPECT_TRUE(has(refusalOf({{"a", "none"}}), "joint 'a' mimics 'none', which does not exist"));
+}
+
 // A joint above the tool moves the whole tool.
 // A lift carries a torso, which carries a head, a crank that the lift mimics, and a hand, the tool.
 TEST(ToolModelTest, KnowsWhatTheOtherJointsOfTheRobotMove) {

@@ -82,6 +82,7 @@ struct WarningInputs {
   std::vector<Object> objects;     ///< ascending by id, each once
   std::vector<OtherTool> other_tools;
   std::vector<Frame> frames;               ///< ascending by name, each once
+  std::vector<std::string> links;          ///< of the tool's convex pieces; empty where they have none
   std::optional<Contact> contact;          ///< newest contact; of several in one sweep, the first reported
   std::vector<std::string> intended;       ///< workpieces that the newest sweep met as intended (Intention)
   std::vector<WorkpieceWarning> warnings;  ///< each workpiece once

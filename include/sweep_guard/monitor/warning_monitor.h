@@ -18,6 +18,7 @@ namespace sweep_guard_core {
 class Faults;
 class Refusals;
 class SweptWorkpieces;
+class Tool;
 class WorkpieceWarnings;
 struct SampledQuery;
 
@@ -54,6 +55,9 @@ class WarningMonitor {
 
   /// Sets the ids of the workpieces without which the warning is not clear.
   void require(const std::set<std::string>& ids);
+
+  /// Sets the tool whose links the text names.
+  void setTool(const Tool& tool);
 
   /// Sets the guards of other tools: the warning is not clear while one of them is silent for longer than `pose_timeout`.
   /// @param names  each once; not checked

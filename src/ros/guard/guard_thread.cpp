@@ -54,6 +54,7 @@ void GuardThread::apply(const std::shared_ptr<const Parameters>& next) {
     if (shapes) steps_.setTool(*next, *shapes);
     if (tested) dependencies_.monitor.detectorTested({});
     dependencies_.monitor.setLimits(next->limits);
+    dependencies_.monitor.setTool(*next->tool);
     dependencies_.statistics.setCycle(next->guard.cycle);
     dependencies_.parameters.set(next);
   };
@@ -115,6 +116,7 @@ void GuardThread::exchangeTool(const std::shared_ptr<const Parameters>& before,
     steps_.guard().exchange(change);
     dependencies_.intentions.clear();
     steps_.setTool(*next, shapes);
+    dependencies_.monitor.setTool(*next->tool);
     dependencies_.scene.setTool(*next->bodies);
   };
   runInTime(exchange, "the tool is as before");

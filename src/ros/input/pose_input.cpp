@@ -161,6 +161,7 @@ void PoseInput::pushKnownPoses(sweep_guard_core::SteadyTime received, const Chec
 
 // The state is the last of the poses that the motion to it was cut into.
 std::string PoseInput::jumpTo(const sweep_guard_core::PoseWithFrames& state) {
+  repeated_.add(state.X_WT, state.state.positions);
   const auto newest = live_.get();  // limits may change
   const sweep_guard_core::PredictorOptions& limits = newest->guard.predictor;
   std::string jump =

@@ -11,6 +11,7 @@
 
 #include "guard/workpiece_store.h"
 #include "monitor/input_record.h"
+#include "monitor/repeated_positions.h"
 #include "monitor/work_queue.h"
 #include "prediction/tool_jumps.h"
 #include "ros/connection/bounded.h"
@@ -45,7 +46,8 @@ class PoseInput {
   const sweep_guard_core::InputRecord& record() const { return record_; }
   const std::string& source() const { return source_; }  ///< resolved topics, or the tf frames
   std::optional<std::uint32_t> publishers() const;       ///< of the topic; empty for tf
-  std::uint64_t lost() const { return lost_; }           ///< poses that were sent and did not arrive, by header.seq
+  const sweep_guard_core::RepeatedPositions& repeated() const { return repeated_; }
+  std::uint64_t lost() const { return lost_; }  ///< poses that were sent and did not arrive, by header.seq
 
   /// Applies static transforms that have changed though no pose has come for `timing/pose_timeout`. Any thread.
   void applyLateChanges();
@@ -94,6 +96,7 @@ class PoseInput {
 
   Checkpoint checkpoint_;                                 // of the previous input
   sweep_guard_core::ToolJumps jumps_;                     // in the states that come in
+  sweep_guard_core::RepeatedPositions repeated_;          // of these states
   std::optional<sweep_guard_core::Time> last_transform_;  // used by the tf listener's thread only
   sweep_guard_core::Instant rested_{};   // when addRestingPose() last added one; used by its thread only
   sweep_guard_core::Time rested_until_;  // stamp of the newest pose of a tool from tf at rest

@@ -13,6 +13,7 @@ namespace {
 
 using sweep_guard_core::Instant;
 using sweep_guard_core::Permission;
+using sweep_guard_core::PermissionCause;
 
 constexpr sweep_guard_core::Duration kShortest = std::chrono::milliseconds(1);  // step of a pose
 constexpr double kLate = 1.5;                                                   // periods after which a command is late
@@ -26,6 +27,7 @@ CommandCycle::CommandCycle(const ros::NodeHandle& node, const ros::NodeHandle& p
       topic_(node.resolveName(CommandPort::kTopic)),
       guard_(parameters.options),
       period_(parameters.options.command_timeout),
+      gaps_(parameters.options.command_timeout, "command_timeout"),
       port_(makeCommandPort(
           thread_.on(node), parameters, sources.frames,
           [this](const auto& message, const auto& at) { onCommand(message, at); },
@@ -37,11 +39,12 @@ void CommandCycle::onCommand(const CommandPort::Message& message, const sweep_gu
   const sweep_guard_core::Lock lock(mutex_);
   port_->take(message);
   period_.add(timestamps.received);
+  gaps_.received(timestamps);
   const Instant at = now();
   if (!command_) sent_ = at.steady;  // the first one after a pause: a pose moves on only from the second one on
   command_ = timestamps;
   halts_ = 0;
-  limitNewest(at, /*only_if_changed=*/false);
+  limitNewest(at, Sending::kNew);
 }
 
 void CommandCycle::refuse(const std::string& reason) {
@@ -78,23 +81,30 @@ void CommandCycle::update(const Instant& at) {
   if (!sent_W_) return;  // refused
   const bool decided_anew = guard_.permission(inputs(), *command_, at).permission != permission_;
   const bool late = !port_->isPose() && at.steady - sent_ > kLate * period_.longest();
-  if (decided_anew || late) limitNewest(at, /*only_if_changed=*/true);
+  const bool repeats = port_->repeats() && at.steady - published_ >= kRepeatPeriod;
+  if (decided_anew || late || repeats) limitNewest(at, repeats ? Sending::kRepeated : Sending::kIfChanged);
 }
 
 bool CommandCycle::letsThrough(const Instant& at) const {
   return guard_.permission(inputs(), {at.stamp, at.steady}, at).permission != Permission::kStop;
 }
 
-// A command that is late is limited again at the next tick.
+// A command that is late or repeated is limited again at the next tick.
 sweep_guard_core::Duration CommandCycle::longestInForce() const {
   const sweep_guard_core::Duration longest = period_.longest();
-  return port_->isPose() ? longest
-                         : std::chrono::duration_cast<sweep_guard_core::Duration>(kLate * longest) + kTickPeriod;
+  const sweep_guard_core::Duration late =
+      port_->isPose() ? longest : std::chrono::duration_cast<sweep_guard_core::Duration>(kLate * longest) + kTickPeriod;
+  return port_->repeats() ? std::min(late, kRepeatPeriod + kTickPeriod) : late;
 }
 
 sweep_guard_core::Duration CommandCycle::period() const {
   const sweep_guard_core::Lock lock(mutex_);
   return longestInForce();
+}
+
+std::string CommandCycle::rarity() const {
+  const sweep_guard_core::Lock lock(mutex_);
+  return gaps_.rarity(std::chrono::steady_clock::now());
 }
 
 ros::ServiceServer CommandCycle::advertiseRebase(ros::NodeHandle node) {
@@ -120,7 +130,7 @@ sweep_guard_core::MotionInputs CommandCycle::inputs(sweep_guard::Proximity::Cons
   return inputs;
 }
 
-void CommandCycle::limitNewest(const Instant& at, bool only_if_changed) {
+void CommandCycle::limitNewest(const Instant& at, Sending sending) {
   sweep_guard::Proximity::ConstPtr planes;
   const sweep_guard_core::MotionInputs known = inputs(&planes);
   if (waitsForRelease(known, at)) return sendZero(at);
@@ -129,20 +139,34 @@ void CommandCycle::limitNewest(const Instant& at, bool only_if_changed) {
     command.timestamps = *command_;
     command.period = longestInForce();
     const sweep_guard_core::GuardedMotion motion = guard_.guard(known, command, at);
-    if (!only_if_changed || port_->isPose() || sent_W_ != motion.twist_W) port_->send(motion);
+    if (sending != Sending::kIfChanged || port_->isPose() || sent_W_ != motion.twist_W) {
+      port_->send(motion, /*again=*/sending != Sending::kNew);
+      published_ = at.steady;
+    }
     sent_W_ = motion.twist_W;
     permission_ = motion.decision.permission;
-    sources_.status.update(statusOf(motion, planes.get(), port_->standingLead()));
+    sweep_guard::MotionStatus status = statusOf(motion, planes.get(), port_->standingLead());
+    explain(motion.decision.cause, at, status);
+    sources_.status.update(std::move(status));
   } catch (const sweep_guard_core::Error& error) {
-    if (!only_if_changed) record_.error(error.what(), /*refused=*/true);
+    if (sending == Sending::kNew) record_.error(error.what(), /*refused=*/true);
     sendZero(at);
     sources_.status.update(refusedStatus(error.what()));
   }
   sent_ = at.steady;
 }
 
+// What is done does not change, but what to do about it is said.
+void CommandCycle::explain(PermissionCause cause, const Instant& at, sweep_guard::MotionStatus& status) const {
+  std::string why;
+  if (cause == PermissionCause::kNoWarning) why = sources_.guard.absence();
+  if (cause == PermissionCause::kOldCommand) why = gaps_.tooOld(at);
+  if (!why.empty()) status.text = "stopped: " + why;
+}
+
 CommandPort::Cycle CommandCycle::cycleAt(const Instant& at) const {
-  return {at, std::clamp(at.steady - sent_, kShortest, period_.longest()), period_.longest()};
+  const sweep_guard_core::Duration period = longestInForce();
+  return {at, std::clamp(at.steady - sent_, kShortest, period), period};
 }
 
 // MoveIt Servo, which listens to the scale, takes no other type.
@@ -157,13 +181,16 @@ void CommandCycle::sendZero(const Instant& at) {
   sent_W_.reset();
   permission_ = Permission::kStop;
   sent_ = at.steady;
+  published_ = at.steady;
 }
 
 // At the period that the commands had.
 void CommandCycle::halt(const Instant& at) {
   if (halts_ > 0 && at.steady - sent_ < period_.mean()) return;
   sendZero(at);
-  sources_.status.update(idleStatus({Permission::kStop, sweep_guard_core::PermissionCause::kOldCommand}));
+  sweep_guard::MotionStatus status = idleStatus({Permission::kStop, PermissionCause::kOldCommand});
+  explain(PermissionCause::kOldCommand, at, status);
+  sources_.status.update(std::move(status));
   ++halts_;
   if (parameters_.halt_messages == 0 || halts_ < parameters_.halt_messages) return;
   command_.reset();

@@ -43,6 +43,13 @@ void stampNow(Msg& msg) {
   msg.header.stamp = ros::Time::now();
 }
 
+template <typename Msg>
+boost::shared_ptr<Msg> stampedNow(const Msg& msg) {
+  const auto stamped = boost::make_shared<Msg>(msg);
+  stampNow(*stamped);
+  return stamped;
+}
+
 Eigen::Vector3d fromXyz(const geometry_msgs::Vector3& v) { return {v.x, v.y, v.z}; }
 
 template <typename Msg>
@@ -88,13 +95,14 @@ class TwistPort : public CommandPort {
     return command;
   }
 
-  void send(const GuardedMotion& motion) override {
+  void send(const GuardedMotion& motion, bool again) override {
     const Twist& let_through_W = motion.twist_W;
-    if (let_through_W == commanded_W_) return publishNewest<Msg>();
+    if (let_through_W == commanded_W_) return again ? publish(stampedNow(newest<Msg>())) : publishNewest<Msg>();
     const auto msg = boost::make_shared<Msg>(newest<Msg>());
     geometry_msgs::Twist& twist = twistOf(*msg);
     twist.linear = vectorMsg<geometry_msgs::Vector3>(R_WC_.transpose() * let_through_W.v_W / linear_scale_);
     twist.angular = vectorMsg<geometry_msgs::Vector3>(R_WC_.transpose() * let_through_W.w_W / angular_scale_);
+    if (again) stampNow(*msg);
     publish(msg);
   }
 
@@ -118,10 +126,12 @@ class PosePort : public CommandPort {
            Refuse refuse)
       : CommandPort(frames, parameters, advertise<PoseStamped>(node),
                     subscribe<PoseStamped>(node, std::move(receive), std::move(refuse))),
+        repeats_(!parameters.incremental),
         silence_(parameters.options.silence),
         follower_(parameters.leash, parameters.incremental) {}
 
   bool isPose() const override { return true; }
+  bool repeats() const override { return repeats_; }
 
   MotionCommand read(const MotionInputs& known, const Cycle& cycle) override {
     if (!known.pose) throw FrameError("no tool pose yet");
@@ -138,14 +148,14 @@ class PosePort : public CommandPort {
     return command;
   }
 
-  void send(const GuardedMotion& motion) override {
+  void send(const GuardedMotion& motion, bool again) override {
     if (motion.decision.permission == sweep_guard_core::Permission::kStop) {
       follower_.hold(tool_is_fresh_);
     } else {
       follower_.moveOn(motion.twist_W);
     }
-    if (follower_.reached()) return publishNewest<PoseStamped>();
-    publishSent(newest<PoseStamped>().header.stamp);
+    if (follower_.reached()) return again ? publish(stampedNow(newest<PoseStamped>())) : publishNewest<PoseStamped>();
+    publishSent(again ? ros::Time::now() : newest<PoseStamped>().header.stamp);
   }
 
   void sendZero(const MotionInputs& known, const Cycle& cycle) override {
@@ -197,6 +207,7 @@ class PosePort : public CommandPort {
     publish(msg);
   }
 
+  const bool repeats_;
   const Duration silence_;  // of the tool: an older pose does not show where it is
   sweep_guard_core::PoseFollower follower_;
   bool tool_is_fresh_ = false;

@@ -34,19 +34,22 @@ class CommandPort {
 
   void take(const Message& message) { newest_ = message; }  ///< it is the newest command from now on
   virtual bool isPose() const { return false; }
+  /// Returns whether a command may be sent again before the next one. Not if it is a change from the one before.
+  virtual bool repeats() const { return true; }
 
   /// The times of a cycle in which something is sent.
   struct Cycle {
     sweep_guard_core::Instant now;
     sweep_guard_core::Duration since_sent;  ///< a pose moves on by what is possible in this time
-    sweep_guard_core::Duration period;      ///< longest period of the commands
+    sweep_guard_core::Duration period;      ///< longest until something is sent again
   };
 
   /// Reads the newest command. All but its timestamps and `period` is filled in.
   /// @throws FrameError, sweep_guard_core::InvalidInput if it cannot be carried out
   virtual sweep_guard_core::MotionCommand read(const sweep_guard_core::MotionInputs& known, const Cycle& cycle) = 0;
   /// Publishes what was let through of what read() returned; the message itself if that is everything.
-  virtual void send(const sweep_guard_core::GuardedMotion& motion) = 0;
+  /// @param again  since the command came, it was sent before: it is stamped now
+  virtual void send(const sweep_guard_core::GuardedMotion& motion, bool again) = 0;
   /// Publishes that the tool shall stand still. A pose is published only if one was before.
   virtual void sendZero(const sweep_guard_core::MotionInputs& known, const Cycle& cycle) = 0;
   void stop() { subscriber_.shutdown(); }  ///< no callback begins any more, and none is running

@@ -4,6 +4,7 @@
 
 #include "ros/connection/sole_publisher.h"
 #include "ros/input/future_stamp.h"
+#include "ros/motion/absent_guard.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/ros/conversions.h"
@@ -55,7 +56,7 @@ std::shared_ptr<const sweep_guard_core::ToolBalls> toolFrom(const sweep_guard::T
 }  // namespace
 
 GuardInput::GuardInput(const ros::NodeHandle& node, const std::string& guard, const PoseSource& tool)
-    : fixed_frame_(tool.fixed_frame), tool_frame_(tool.frame), silence_(tool.silence) {
+    : guard_(guard), fixed_frame_(tool.fixed_frame), tool_frame_(tool.frame), silence_(tool.silence) {
   planes_ = subscribe(node, guard + "/proximity", planes_record_, &GuardInput::acceptPlanes);
   tool_ = subscribe(node, guard + "/tool_balls", tool_record_, &GuardInput::acceptTool);
   warning_ = subscribe(node, guard + "/warning", warning_record_, &GuardInput::acceptWarning);
@@ -87,11 +88,16 @@ sweep_guard_core::MotionInputs GuardInput::inputs(sweep_guard::Proximity::ConstP
 }
 
 void GuardInput::report(DiagnosticsLine& line) const {
-  line.summary(diagnostic_msgs::DiagnosticStatus::OK, "received");
-  reportTopic(planes_, planes_record_.summary(), line);
-  reportTopic(tool_, tool_record_.summary(), line);
-  reportTopic(warning_, warning_record_.summary(), line);
+  using diagnostic_msgs::DiagnosticStatus;
+  const std::string absent = absence();
+  const bool is_there = absent.empty();
+  line.summary(is_there ? DiagnosticStatus::OK : DiagnosticStatus::ERROR, is_there ? "received" : absent);
+  reportTopic(planes_, planes_record_.summary(), is_there, line);
+  reportTopic(tool_, tool_record_.summary(), is_there, line);
+  reportTopic(warning_, warning_record_.summary(), is_there, line);
 }
+
+std::string GuardInput::absence() const { return warning_.getNumPublishers() > 0 ? "" : absentGuardText(guard_); }
 
 void GuardInput::acceptPlanes(const ros::MessageEvent<const sweep_guard::Proximity>& event) {
   sweep_guard::Proximity::ConstPtr msg = event.getConstMessage();

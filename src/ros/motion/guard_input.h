@@ -35,6 +35,7 @@ class GuardInput {
   sweep_guard_core::MotionInputs inputs(sweep_guard::Proximity::ConstPtr* message = nullptr) const;
 
   void report(DiagnosticsLine& line) const;  ///< fills the line of the messages
+  std::string absence() const;  ///< that nobody publishes the warning, and what to do; empty: somebody does
 
  private:
   template <typename Msg>
@@ -48,6 +49,7 @@ class GuardInput {
   void checkStamp(const sweep_guard_core::Timestamps& timestamps) const;
   void checkFrame(const std::string& frame, const std::string& expected) const;
 
+  const std::string guard_;
   const std::string fixed_frame_;
   const std::string tool_frame_;
   const sweep_guard_core::Duration silence_;

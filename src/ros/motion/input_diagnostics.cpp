@@ -29,10 +29,11 @@ bool silent(const InputRecord::Summary& record) {
   return !record.newest || now().steady - record.newest->received > kSilent;
 }
 
-void reportTopic(const BoundedSubscriber& subscriber, const InputRecord::Summary& record, DiagnosticsLine& line) {
+void reportTopic(const BoundedSubscriber& subscriber, const InputRecord::Summary& record, bool expected,
+                 DiagnosticsLine& line) {
   const std::string topic = subscriber.getTopic();
   const std::uint32_t publishers = subscriber.getNumPublishers();
-  if (!record.newest) line.mergeSummary(DiagnosticStatus::ERROR, "nothing received on " + topic);
+  if (expected && !record.newest) line.mergeSummary(DiagnosticStatus::ERROR, "nothing received on " + topic);
   if (refusedLately(record)) line.mergeSummary(DiagnosticStatus::ERROR, topic + " refused: " + record.last_error);
   if (publishers > 1) line.mergeSummary(DiagnosticStatus::ERROR, "several publishers on " + topic);
   line.add(topic, std::to_string(publishers) + " publishers");

@@ -20,8 +20,9 @@ void addRecord(const std::string& name, const sweep_guard_core::InputRecord::Sum
 bool silent(const sweep_guard_core::InputRecord::Summary& record);
 
 /// Adds a topic of a guard to a line.
+/// @param expected  whether it is an error that nothing has been received
 void reportTopic(const BoundedSubscriber& subscriber, const sweep_guard_core::InputRecord::Summary& record,
-                 DiagnosticsLine& line);
+                 bool expected, DiagnosticsLine& line);
 
 /// Fills the line of the poses of a tool.
 /// @param name  of the poses, for people

@@ -82,6 +82,8 @@ void MotionGuardNode::command(DiagnosticsLine& line) const {
   const CommandPort& port = cycle_.port();
   const sweep_guard_core::InputRecord::Summary record = cycle_.record().summary();
   line.summary(DiagnosticStatus::OK, silent(record) ? "no command now" : "received");
+  const std::string rarity = cycle_.rarity();
+  if (!rarity.empty()) line.summary(DiagnosticStatus::WARN, rarity);
   if (port.commandPublishers() == 0) line.summary(DiagnosticStatus::WARN, "no publisher on " + port.commandTopic());
   if (port.commandPublishers() > 1) {
     line.summary(DiagnosticStatus::WARN, "several publishers on " + port.commandTopic() + ": use a multiplexer");

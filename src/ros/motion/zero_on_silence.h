@@ -15,6 +15,7 @@
 #include "ros/process/log_throttle.h"
 #include "ros/threads/queue_thread.h"
 #include "ros/threads/timer_thread.h"
+#include "sweep_guard/motion/command_gaps.h"
 #include "sweep_guard/motion/command_period.h"
 #include "sweep_guard/ros/parameters/parameter_reader.h"
 
@@ -51,8 +52,9 @@ class ZeroOnSilence {
   MasterWatch master_watch_;  // before what registers at the master
   LogThrottle log_;
   const sweep_guard_core::Duration timeout_;
-  sweep_guard_core::Mutex mutex_;  // of the next four: commands and zeros leave in the order of their decisions
+  sweep_guard_core::Mutex mutex_;  // of the next five: commands and zeros leave in the order of their decisions
   std::optional<sweep_guard_core::SteadyTime> newest_ GUARDED_BY(mutex_);  // when the newest command was received
+  sweep_guard_core::CommandGaps gaps_ GUARDED_BY(mutex_);
   std::function<void()> send_zero_;
   std::uint64_t passed_ GUARDED_BY(mutex_) = 0;
   std::string last_refusal_ GUARDED_BY(mutex_);

@@ -5,7 +5,9 @@
 #include <array>
 #include <cstdio>
 #include <fstream>
+#include <utility>
 
+#include "common/number_text.h"
 #include "monitor/workpiece_sizes.h"
 #include "sweep_guard/common/quantile.h"
 #include "sweep_guard/ros/conversions.h"
@@ -96,6 +98,9 @@ void Diagnostics::pose(Status& status) {
     status.mergeSummary(DiagnosticStatus::WARN, "several publishers: the tool jumps between their poses");
   }
   status.add("lost", inputs_.poses().lost());
+  const auto repeated = inputs_.poses().repeated().counts();
+  const auto percent = repeatedPercent(std::exchange(repeated_, repeated), repeated);
+  if (percent) status.addf("repeated positions [%]", "%.0f", *percent);
   if (const auto newest = inputs_.poses().record().summary().newest) reportClocks(*newest, status);
 }
 
@@ -213,7 +218,7 @@ void Diagnostics::otherTools(Status& status) const {
   const sweep_guard_core::Duration timeout = state_.parameters.get()->limits.pose_timeout;
   status.summary(DiagnosticStatus::OK, "heard");
   for (const auto& [name, newest, problem] : state_.monitor.otherTools()) {
-    const std::string age = newest ? "pose " + std::to_string(toSeconds(sweep_guard_core::age(*newest, at))) + " s old"
+    const std::string age = newest ? "pose " + sweep_guard_core::inSeconds(sweep_guard_core::age(*newest, at)) + " old"
                                    : std::string("not heard of");
     const bool counts = newest && problem.empty() && !sweep_guard_core::stale(*newest, at, timeout);
     if (!counts) status.mergeSummary(DiagnosticStatus::ERROR, "'" + name + "' does not count");

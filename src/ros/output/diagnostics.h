@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "monitor/repeated_positions.h"
 #include "monitor/sweep_statistics.h"
 #include "ros/guard/guard_state.h"
 #include "ros/input/inputs.h"
@@ -66,6 +67,7 @@ class Diagnostics {
   Counts poses_;  // at the end of the last period
   Counts meshes_;
   Counts vertices_;
+  sweep_guard_core::RepeatedPositions::Counts repeated_;
   sweep_guard_core::StageTimes stage_times_{};
   sweep_guard_core::SteadyTime stages_read_ = std::chrono::steady_clock::now();
   sweep_guard_core::SweepStatistics::Summary statistics_;  // of the last period

@@ -155,16 +155,24 @@ std::vector<std::string> ParameterReader::texts(const std::string& key, const st
 }
 
 // A nodelet has not the namespace of its process.
+std::string ParameterReader::resolved(const std::string& key, const std::string& name) const {
+  std::string error;
+  if (ros::names::validate(name, error))
+    return ros::names::resolve(ros::names::parentNamespace(node_.getNamespace()), name);
+  throw sweep_guard_core::InvalidInput("parameter " + key + " has no name of a node: " + error);
+}
+
+std::string ParameterReader::node(const std::string& key, const std::string& fallback, const std::string& effect) {
+  return resolved(key, name(key, fallback, effect));
+}
+
 std::vector<std::string> ParameterReader::nodes(const std::string& key, const std::string& effect) {
   const auto refusal = [&](const std::string& why) {
     return sweep_guard_core::InvalidInput("parameter " + key + " has " + why);
   };
-  const std::string scope = ros::names::parentNamespace(node_.getNamespace());
   std::vector<std::string> nodes;
   for (const std::string& name : texts(key, effect)) {
-    std::string error;
-    if (!ros::names::validate(name, error)) throw refusal("no name of a node: " + error);
-    nodes.push_back(ros::names::resolve(scope, name));
+    nodes.push_back(resolved(key, name));
     if (std::count(nodes.begin(), nodes.end(), nodes.back()) > 1) {
       throw refusal(nodes.back() + " twice: name each node once");
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "common/number_text.h"
 #include "guard/rigid_shape.h"
 #include "ros/tool/payload.h"
 #include "sweep_guard/common/error.h"
@@ -36,7 +37,7 @@ Eigen::Isometry3d motionSince(const Workpiece& before, const Workpiece& newest) 
   const sweep_guard_core::RigidFit fit = sweep_guard_core::rigidFit(before.mesh_M, newest.mesh_M);
   const double rounding = before.mesh_M.rounding() + newest.mesh_M.rounding();
   if (fit.deviation <= sweep_guard_core::WorkpieceStore::rigidWithin(rounding)) return fit.X_MM;
-  throw InvalidInput("'" + before.id + "' has deformed by " + std::to_string(fit.deviation) +
+  throw InvalidInput("'" + before.id + "' has deformed by " + sweep_guard_core::shortText(fit.deviation) +
                      " m meanwhile: the tool can carry what keeps its shape");
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/number_text.h"
 #include "ros/guard/detector_test.h"
 #include "ros/service/left_out.h"
 #include "sweep_guard/common/error.h"
@@ -152,7 +153,7 @@ std::string PathTests::oldTransforms(const PathQuestion& question, const std::se
       const sweep_guard_core::Duration age = now().stamp - newest.value_or(sweep_guard_core::Time());
       if (age <= question.parameters->limits.pose_timeout) continue;
       return "newest transform from '" + printable(frame) + "' to '" + mesh_frame + "' is " +
-             std::to_string(sweep_guard_core::toSeconds(age)) + " s old";
+             sweep_guard_core::inSeconds(age) + " old";
     }
   }
   return "";

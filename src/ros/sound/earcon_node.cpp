@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "ros/merger/heard_warning.h"
+#include "ros/motion/absent_guard.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
 
@@ -117,7 +118,9 @@ void EarconNode::play(const sweep_guard_core::HeardWarning& warning) {
 
 void EarconNode::report(Status& status) const {
   const sweep_guard_core::Lock lock(mutex_);
-  const std::string silence = warning_.silence(0, now());
+  std::string silence = warning_.silence(0, now());
+  const bool absent = !silence.empty() && subscriber_.getNumPublishers() == 0;
+  if (absent) silence = absentWarningText(warning_.guards().front());
   status.summary(silence.empty() ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
                  silence.empty() ? styleOf(sounds_).name : silence);
   if (!problem_.empty()) status.mergeSummary(DiagnosticStatus::ERROR, "no sound: " + problem_);

@@ -19,7 +19,7 @@ using sweep_guard_core::JointVariable;
 using sweep_guard_core::KinematicTree;
 using sweep_guard_core::TreeLink;
 
-constexpr int kMaxMimicDepth = 16;
+constexpr size_t kMaxMimicDepth = 16;
 constexpr double kMaxAngle = 1e4;  // [rad], of a continuous joint
 
 // From the root of the robot down to the link.
@@ -78,11 +78,26 @@ void requireSupported(const urdf::Joint& joint) {
                      "' is within the tool: only fixed, revolute, continuous and prismatic joints are supported there");
 }
 
-const urdf::Joint& followedBy(const RobotDescription& robot, const urdf::Joint& joint, int depth) {
-  const urdf::Joint* const followed = robot.joint(joint.mimic->joint_name);
-  if (followed != nullptr && depth < kMaxMimicDepth) return *followed;
-  throw InvalidInput("joint '" + joint.name + "' mimics '" + joint.mimic->joint_name +
-                     "', which does not exist or mimics too many others");
+std::string mimicEachOther(Joints::const_iterator first, Joints::const_iterator end) {
+  if (end - first == 1) return "joint '" + (*first)->name + "' mimics itself";
+  std::string names = "'" + (*first)->name + "'";
+  for (auto each = first + 1; each != end; ++each) names += (each + 1 == end ? " and '" : ", '") + (*each)->name + "'";
+  return "joints " + names + " mimic each other: one of them has to lead";
+}
+
+// @param chain  each but the first is mimicked by the one before
+const urdf::Joint& followedBy(const RobotDescription& robot, const Joints& chain) {
+  const urdf::Joint& joint = *chain.back();
+  const std::string& name = joint.mimic->joint_name;
+  const urdf::Joint* const followed = robot.joint(name);
+  const auto refusal = [&](const char* why) {
+    return InvalidInput("joint '" + joint.name + "' mimics '" + name + "', which " + why);
+  };
+  if (followed == nullptr) throw refusal("does not exist");
+  const auto first = std::find_if(chain.begin(), chain.end(), [&](const auto* each) { return each->name == name; });
+  if (first != chain.end()) throw InvalidInput(mimicEachOther(first, chain.end()));
+  if (chain.size() > kMaxMimicDepth) throw refusal("mimics too many others");
+  return *followed;
 }
 
 std::string shown(double lower, double upper) {
@@ -123,15 +138,15 @@ class TreeBuilder {
   }
 
   void follow(const urdf::Joint& joint, TreeLink& link) {
-    const urdf::Joint* leader = &joint;
-    requireSupported(*leader);
-    for (int depth = 0; leader->mimic; ++depth) {
-      link.offset += link.multiplier * leader->mimic->offset;
-      link.multiplier *= leader->mimic->multiplier;
-      leader = &followedBy(robot_, *leader, depth);
-      requireSupported(*leader);
+    Joints chain{&joint};
+    requireSupported(joint);
+    while (chain.back()->mimic) {
+      link.offset += link.multiplier * chain.back()->mimic->offset;
+      link.multiplier *= chain.back()->mimic->multiplier;
+      chain.push_back(&followedBy(robot_, chain));
+      requireSupported(*chain.back());
     }
-    link.variable = variableOf(*leader);
+    link.variable = variableOf(*chain.back());
   }
 
   size_t variableOf(const urdf::Joint& joint) {

@@ -84,6 +84,8 @@ class ParameterReader {
                                      const std::string& effect = "");
   /// Reads a list of texts that are not empty; [] if not set.
   std::vector<std::string> texts(const std::string& key, const std::string& effect = "");
+  /// Reads the name of another node, and resolves it as the node itself does.
+  std::string node(const std::string& key, const std::string& fallback, const std::string& effect = "");
   /// Reads a list of names of other nodes, each once, and resolves them as the node itself does; [] if not set.
   std::vector<std::string> nodes(const std::string& key, const std::string& effect = "");
   /// Reads a group of finite numbers by their names in the group, each within a range if there is one; empty if not set.
@@ -117,6 +119,7 @@ class ParameterReader {
  private:
   void describe(ParameterInfo info);
   std::string optionalText(const std::string& key, const std::string& wanted, const std::string& effect);
+  std::string resolved(const std::string& key, const std::string& name) const;
   bool isGroup(const std::string& key) const;
   bool get(const std::string& key, XmlRpc::XmlRpcValue& value);
   bool getList(const std::string& key, const std::string& wanted, XmlRpc::XmlRpcValue& list);
