@@ -10,6 +10,8 @@
 #include <map>
 #include <set>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "sweep_guard/common/error.h"
 
@@ -92,14 +94,16 @@ bool RecordingFolder::lock() {
 }
 
 void RecordingFolder::deleteLeftovers() const {
+  std::vector<std::pair<RecordingFile, path>> files;  // of one reading: a bag that another one missed would be deleted
   std::set<std::string> whole;
-  forEachFile(options_.folder, [&](const RecordingFile& name, const path& /*file*/, std::uintmax_t /*size*/) {
+  forEachFile(options_.folder, [&](const RecordingFile& name, const path& file, std::uintmax_t /*size*/) {
+    files.emplace_back(name, file);
     if (!name.active && name.suffix == kBagSuffix) whole.insert(name.recording);
   });
-  forEachFile(options_.folder, [&](const RecordingFile& name, const path& file, std::uintmax_t /*size*/) {
+  for (const auto& [name, file] : files) {
     std::error_code ignored;
     if (name.active || whole.count(name.recording) == 0) std::filesystem::remove(file, ignored);
-  });
+  }
 }
 
 void RecordingFolder::probe() const {

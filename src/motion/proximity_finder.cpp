@@ -91,6 +91,9 @@ void ProximityFinder::Search::run(const ProximityRequest& request, Proximity& pr
   std::sort(proximity.planes.begin(), proximity.planes.end(),
             [](const auto& a, const auto& b) { return a.plane.gap < b.plane.gap; });
   facings_.end();
+  request_ = nullptr;
+  found_ = nullptr;
+  planes_.reset();
 }
 
 // They are not where the boxes of the mesh say.

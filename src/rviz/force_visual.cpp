@@ -44,10 +44,11 @@ void ForceVisual::show(const sweep_guard::Interaction& interaction, const geomet
 void ForceVisual::clear() { show({}, {}, DisplayStyle()); }
 
 void ForceVisual::addLabel() {
-  rviz::MovableText& label = *labels_.emplace_back(std::make_unique<rviz::MovableText>("-"));
-  label.showOnTop(true);
-  label.setTextAlignment(rviz::MovableText::H_LEFT, rviz::MovableText::V_ABOVE);
-  node_.createChildSceneNode()->attachObject(&label);
+  auto label = std::make_unique<rviz::MovableText>("-");
+  label->showOnTop(true);
+  label->setTextAlignment(rviz::MovableText::H_LEFT, rviz::MovableText::V_ABOVE);
+  node_.createChildSceneNode()->attachObject(label.get());
+  labels_.push_back(std::move(label));
 }
 
 void ForceVisual::label(const std::string& text, const Ogre::Vector3& place, const DisplayStyle& style) {

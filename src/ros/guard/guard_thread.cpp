@@ -189,6 +189,7 @@ bool GuardThread::takeWork() {
     if (!dependencies_.queue.take(work_, latestPrediction())) return false;
   } catch (...) {  // no memory for the poses, which stay in the queue
     top_->caught();
+    work_ = {};
   }
   for (const auto& task : work_.tasks) top_->run(task);
   if (work_.frames_moved && work_.poses.empty()) top_->run([this] { steps_.sweepOn(); });
@@ -261,14 +262,22 @@ void GuardThread::predict() {
   steps_.endPrediction(running);
 }
 
+// Returns whether there are more poses. Without memory for them they stay in the queue.
+bool GuardThread::takeMore() {
+  next_ = 0;
+  try {
+    dependencies_.queue.takePoses(work_.poses);
+  } catch (...) {
+    top_->caught();
+    work_.poses.clear();
+  }
+  return !work_.poses.empty();
+}
+
 // Sweeps the poses that wait. Returns false if one failed. It and those after it wait.
 bool GuardThread::sweepWaiting() {
   while (std::chrono::steady_clock::now() - predicted_at_ < kMaxInterrupted) {
-    if (next_ == work_.poses.size()) {
-      next_ = 0;
-      dependencies_.queue.takePoses(work_.poses);
-    }
-    if (work_.poses.empty()) return true;
+    if (next_ == work_.poses.size() && !takeMore()) return true;
     if (!takeNext()) return false;
   }
   return true;

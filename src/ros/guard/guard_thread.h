@@ -72,6 +72,7 @@ class GuardThread {
   bool predictIfDue();
   std::optional<sweep_guard_core::SteadyTime> latestPrediction() const;
   void predict();
+  bool takeMore();
   bool sweepWaiting();
 
   const GuardThreadDependencies dependencies_;
