@@ -3,6 +3,8 @@
 #include <OgreSceneManager.h>
 #include <OgreSceneNode.h>
 
+#include <utility>
+
 #include "rviz/feeds.h"
 #include "rviz/ogre_conversions.h"
 
