@@ -86,16 +86,22 @@ class PlanReader {
   void readNames() {
     std::vector<std::string> unknown;
     std::set<std::string> named;
+    bool any_counts = plan_.joints.empty() || tree_.variables().empty();
     for (const std::string& joint : plan_.joints) {
       if (!named.insert(joint).second) objections_.push_back("joint_names has " + quoted(joint) + " twice");
       if (!hasJoint(tree_, beside_, joint)) unknown.push_back(quoted(joint));
+      any_counts = any_counts || beside_.elsewhere.count(joint) == 0;
     }
-    if (unknown.empty()) return;
     std::vector<std::string> variables;
     for (const JointVariable& variable : tree_.variables()) variables.push_back(variable.name);
-    objections_.push_back("the robot description has no joint " + listed(unknown, ", ") +
-                          ": leave it out, or correct its name; the tool's links are moved by " +
-                          (variables.empty() ? "none" : listed(variables, ", ")));
+    const std::string movers =
+        "the tool's links are moved by " + (variables.empty() ? "none" : listed(variables, ", "));
+    if (!unknown.empty()) {
+      objections_.push_back("the robot description has no joint " + listed(unknown, ", ") +
+                            ": leave it out, or correct its name; " + movers);
+    } else if (!any_counts) {
+      objections_.push_back("joint_names has no joint of the tool, which would be tested at rest: " + movers);
+    }
   }
 
   void readPoints() {

@@ -64,6 +64,14 @@ TEST_F(JointPlanTest, JointsThatMoveNothingOfTheToolArePassedOverAndListed) {
   EXPECT_EQ(plan.remarks, "passed over, for they do not move the tool: head, wheel, camera_mount");
 }
 
+TEST_F(JointPlanTest, APlanWithoutAJointOfTheToolIsRefused) {
+  for (const auto& joints : {std::vector<std::string>{"head"}, {"wheel", "head"}, {"camera_mount"}}) {
+    EXPECT_EQ(refused(joints, {std::vector<double>(joints.size(), 0.1)}),
+              "joint_names has no joint of the tool, which would be tested at rest: the tool's links are moved by "
+              "wrist, finger1, drill");
+  }
+}
+
 TEST_F(JointPlanTest, WhatMovesTheFrameMayBeNamedAsLongAsItStays) {
   EXPECT_TRUE(
       has(read({"torso", "wrist"}, {{0.3, 0.0}, {0.3, 1.0}}).remarks, "torso (it moves tool_frame, and stays)"));

@@ -66,6 +66,12 @@ TEST_F(ToolJumpsTest, TwoJumpsInARowAreNoMotion) {
     EXPECT_EQ(moveTo(seconds, 50.0 * seconds).find("the tool 'drill' jumped"), 0U);
 }
 
+TEST_F(ToolJumpsTest, PlacesThatAlternateAreNoMotion) {
+  for (int ms = 0; ms < 200; ms += 10) {
+    EXPECT_EQ(moveTo(0.001 * ms, ms % 20 == 0 ? 0.0 : 1.0).find("the tool 'drill' moves"), std::string::npos) << ms;
+  }
+}
+
 TEST_F(ToolJumpsTest, AJumpThatComesInPartsIsFound) {
   for (int ms = 0; ms < 100; ++ms) ASSERT_EQ(turnTo(0.001 * ms, 0.0), "");
   int found = 0;

@@ -250,6 +250,8 @@ void PoseInput::addRestingPose() {
   if (waits || at.stamp == sweep_guard_core::Time()) return;
   if (frames_.newest(fixed_frame_, tool_frame_) != sweep_guard_core::Time()) return;
   rested_ = at;
+  if (fixed_frame_ == tool_frame_)
+    return refuse(sweep_guard_core::kPoseInvalid, "tool_frame is fixed_frame, in which it never moves");
   if (frames_.find(fixed_frame_, tool_frame_, at.stamp)) return addPoseOfFrame(at.stamp, /*rests=*/true);
   refuse(sweep_guard_core::kPoseInvalid, "the transforms to '" + tool_frame_ + "' have the stamp 0: stamp each");
 }

@@ -30,9 +30,10 @@ const RobotModel& robotOf(const Parameters& parameters) {
 // Returns the name in the robot description of a joint that may be named as on `joint_states`.
 std::string nameInModel(const std::string& joint, const Parameters& parameters) {
   const auto found = parameters.joint_names.find(joint);
-  const bool renamed =
-      found != parameters.joint_names.end() && !hasJoint(parameters.robot->robot.tree, parameters.robot->beside, joint);
-  return renamed ? found->second : joint;
+  if (found == parameters.joint_names.end() || found->second == joint) return joint;
+  if (!hasJoint(parameters.robot->robot.tree, parameters.robot->beside, joint)) return found->second;
+  throw InvalidInput("'" + joint + "' is a joint of the robot description, and tool/joint_names says that it is '" +
+                     found->second + "': a plan with this name could mean either");
 }
 
 JointPlan planOf(const trajectory_msgs::JointTrajectory& trajectory, const Parameters& parameters) {

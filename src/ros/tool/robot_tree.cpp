@@ -187,16 +187,20 @@ void checkLimits(const KinematicTree& tree, const std::vector<double>& positions
   }
 }
 
+// Adds a joint, and those that it mimics.
+void addWithLeaders(const RobotDescription& robot, const urdf::Joint* joint, std::set<std::string>& names) {
+  bool is_new = names.insert(joint->name).second;
+  while (is_new && joint != nullptr && joint->mimic) {
+    is_new = names.insert(joint->mimic->joint_name).second;
+    joint = robot.joint(joint->mimic->joint_name);
+  }
+}
+
 // Of the joints that move the link, and of those that they mimic.
 std::set<std::string> namesOfMovers(const RobotDescription& robot, const urdf::Link& link) {
   std::set<std::string> names;
   for (const urdf::Joint* joint : jointsAbove(robot, link)) {
-    if (joint->type == urdf::Joint::FIXED) continue;
-    bool is_new = names.insert(joint->name).second;
-    while (is_new && joint != nullptr && joint->mimic) {
-      is_new = names.insert(joint->mimic->joint_name).second;
-      joint = robot.joint(joint->mimic->joint_name);
-    }
+    if (joint->type != urdf::Joint::FIXED) addWithLeaders(robot, joint, names);
   }
   return names;
 }
@@ -206,7 +210,8 @@ JointsBesideTree jointsBeside(const RobotDescription& robot, const urdf::Link& f
   std::set<std::string> known = beside.of_frame;
   for (const JointVariable& variable : tree.variables()) known.insert(variable.name);
   for (const TreeLink& link : tree.links()) {
-    if (link.moves()) known.insert(link.joint);
+    if (const urdf::Joint* const joint = link.moves() ? robot.joint(link.joint) : nullptr)
+      addWithLeaders(robot, joint, known);
   }
   for (const urdf::Link* link : RobotDescription::subtree(robot.root())) {
     if (link->parent_joint && known.count(link->parent_joint->name) == 0)
