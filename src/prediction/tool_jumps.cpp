@@ -24,8 +24,8 @@ std::string ToolJumps::add(const ToolState& state, const SpeedLimits& limits) {
       return "joint '" + printable(joints_[i].name) + "' jumped: " + inWords(*of_joint);
   }
   if (!jump) return {};
-  const double speed = goesOn() ? speedOfRun() : 0.0;
-  if (speed > limits.max_speed) {
+  if (goesOn()) {
+    const double speed = run_->length / toSeconds(states_.newest().stamp - run_->from.stamp);
     return "the tool '" + printable(tool_frame_) + "' moves at " + inWords({speed, /*turns=*/false}) + " against '" +
            printable(fixed_frame_) + "', as a pose in millimeters does";
   }
@@ -37,17 +37,14 @@ void ToolJumps::noteRun(bool jumped) {
   if (!jumped) return run_.reset();
   const ToolState& before = states_[states_.size() - 2];
   if (!run_) run_ = Run{before};
+  run_->length += movedBetween(before.X_WT, states_.newest().X_WT).distance;
   ++run_->steps;
 }
 
+// Places that alternate are no motion.
 bool ToolJumps::goesOn() const {
-  return run_ && run_->steps >= kStepsOfRun && states_.newest().stamp - run_->from.stamp >= kTimeOfRun;
-}
-
-// From its begin: places that alternate are no motion [m/s].
-double ToolJumps::speedOfRun() const {
-  const ToolState& newest = states_.newest();
-  return movedBetween(run_->from.X_WT, newest.X_WT).distance / toSeconds(newest.stamp - run_->from.stamp);
+  if (!run_ || run_->steps < kStepsOfRun || states_.newest().stamp - run_->from.stamp < kTimeOfRun) return false;
+  return movedBetween(run_->from.X_WT, states_.newest().X_WT).distance > 0.5 * run_->length;
 }
 
 void ToolJumps::reset() {

@@ -38,12 +38,12 @@ class ToolJumps {
   // Steps in a row that each were a jump of the tool.
   struct Run {
     ToolState from;
+    double length = 0.0;  // [m]
     int steps = 0;
   };
 
   void noteRun(bool jumped);
   bool goesOn() const;
-  double speedOfRun() const;
   template <typename MovedTo>
   std::optional<JumpSpeed> jumpOf(const MovedTo& moved, const SpeedLimits& limits) const;
   std::optional<JumpSpeed> jumpOfJoint(size_t joint, const SpeedLimits& limits) const;

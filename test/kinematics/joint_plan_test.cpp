@@ -65,7 +65,8 @@ TEST_F(JointPlanTest, JointsThatMoveNothingOfTheToolArePassedOverAndListed) {
 }
 
 TEST_F(JointPlanTest, APlanWithoutAJointOfTheToolIsRefused) {
-  for (const auto& joints : {std::vector<std::string>{"head"}, {"wheel", "head"}, {"camera_mount"}}) {
+  const std::vector<std::vector<std::string>> plans = {{"head"}, {"wheel", "head"}, {"camera_mount"}};
+  for (const auto& joints : plans) {
     EXPECT_EQ(refused(joints, {std::vector<double>(joints.size(), 0.1)}),
               "joint_names has no joint of the tool, which would be tested at rest: the tool's links are moved by "
               "wrist, finger1, drill");
