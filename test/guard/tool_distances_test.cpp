@@ -26,6 +26,7 @@ class ToolDistancesTest : public testing::Test {
                const Eigen::Isometry3d& X_WM = Eigen::Isometry3d::Identity()) {
     PoseWithFrames pose;
     pose.X_WT = placedAt(tip) * Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX());
+    pose.bodies = {{pose.X_WT}};
     pose.X_WM["table"] = X_WM;
     distances_.add(pose, workpieces, SteadyTime(milliseconds(ms)), {&drill_});
   }
