@@ -141,7 +141,7 @@ class RestingToolTest : public BaseAndArm {
     while (taken.size() < count) {
       input_.addRestingPose();
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
-      if (!queue_.waitingSince()) continue;
+      if (!queue_.hasPoses()) continue;
       queue_.take(work);
       for (const sweep_guard_core::QueuedPose& queued : work.poses) taken.push_back(queued.pose);
     }
