@@ -114,6 +114,7 @@ PoseWithFrames poseAt(const Robot& robot, double t, const Eigen::Isometry3d& X_W
   std::vector<Eigen::Isometry3d> X_WB;
   bodyPoses(robot.tree, robot.bodies, state, X_WB);
   PoseWithFrames pose{Time(fromSeconds(10.0 + t)), {}, Eigen::Isometry3d::Identity(), {{kMesh, X_WM}}};
+  pose.bodies.clear();
   for (size_t i = 0; i < X_WB.size(); ++i) pose.bodies.push_back({X_WB[i], motion.deviationBound(i, 1)});
   pose.state = state;
   return pose;

@@ -55,7 +55,7 @@ int run(const std::vector<std::string>& arguments) {
   sweep_guard_core::ForceLaw law;
   law.stiffness = kStiffness;
   workpiece.setTool(sweep_guard_core::Tool::cylinder(/*radius=*/0.01, /*length=*/0.15), law);
-  const Eigen::Vector3d top = TopSurface(meshOf(mesh)).highestPoint();
+  const Eigen::Vector3d top = highestPoint(meshOf(mesh));
   std::vector<double> times;
   double dent = 0.0;
   double force = 0.0;

@@ -48,6 +48,7 @@ PoseWithFrames poseAbove(double height, Random& random) {
   pose.X_WT.linear() =
       random.turn(0.3) * Eigen::Quaterniond::FromTwoVectors(-Eigen::Vector3d::UnitZ(), out).toRotationMatrix();
   pose.X_WT.translation() = (kRadius + height) * out;
+  pose.bodies = {{pose.X_WT}};
   return pose;
 }
 

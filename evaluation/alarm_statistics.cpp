@@ -8,6 +8,7 @@ using std::chrono::milliseconds;
 using sweep_guard_core::Duration;
 using sweep_guard_core::Time;
 using sweep_guard_core::WarningLevel;
+using sweep_guard_recording::LevelTrace;
 using sweep_guard_recording::TimeInterval;
 
 const std::array<AlarmRule, 2>& alarmRules() {
@@ -17,9 +18,8 @@ const std::array<AlarmRule, 2>& alarmRules() {
   return kRules;
 }
 
-std::optional<Duration> leadOf(const Episode& episode, const AlarmRule& rule) {
-  const Time contact = episode.placement.contact.value();
-  const std::vector<TimeInterval> alarms = episode.levels.alarms(rule.min_level);
+std::optional<Duration> leadOf(Time contact, const LevelTrace& levels, const AlarmRule& rule) {
+  const std::vector<TimeInterval> alarms = levels.alarms(rule.min_level);
   const auto on = std::find_if(alarms.begin(), alarms.end(), [&](const TimeInterval& alarm) {
     return alarm.end >= contact && (alarm.begin <= contact || rule.at_contact);
   });
@@ -27,11 +27,10 @@ std::optional<Duration> leadOf(const Episode& episode, const AlarmRule& rule) {
   return contact - on->begin;
 }
 
-size_t countFalseAlarms(const Episode& episode, const AlarmRule& rule) {
-  const ObstaclePlacement& placement = episode.placement;
+size_t countFalseAlarms(const ObstaclePlacement& placement, const LevelTrace& levels, const AlarmRule& rule) {
   const Time justified = placement.contact ? *placement.contact - rule.window : placement.end;
   size_t count = 0;
-  for (const TimeInterval& alarm : episode.levels.alarms(rule.min_level)) {
+  for (const TimeInterval& alarm : levels.alarms(rule.min_level)) {
     if (alarm.begin >= justified) continue;
     const Duration unjustified = std::min(alarm.end, justified) - alarm.begin;
     count += 1 + static_cast<size_t>(unjustified / rule.window);
@@ -46,14 +45,17 @@ double AlarmStatistics::warnedAhead(double lead) const {
   return static_cast<double>(enough) / static_cast<double>(contacts);
 }
 
-AlarmStatistics alarmStatistics(const std::vector<Episode>& episodes, const AlarmRule& rule) {
+AlarmStatistics alarmStatistics(const std::vector<ObstaclePlacement>& placements, const std::vector<LevelTrace>& levels,
+                                const AlarmRule& rule) {
   AlarmStatistics statistics;
-  for (const Episode& episode : episodes) {
-    statistics.minutes += sweep_guard_core::toSeconds(episode.placement.end - episode.placement.begin) / 60.0;
-    statistics.false_alarms += countFalseAlarms(episode, rule);
-    if (!episode.placement.contact) continue;
+  for (size_t i = 0; i < placements.size(); ++i) {
+    const ObstaclePlacement& placement = placements[i];
+    statistics.minutes += sweep_guard_core::toSeconds(placement.end - placement.begin) / 60.0;
+    statistics.false_alarms += countFalseAlarms(placement, levels[i], rule);
+    if (!placement.contact) continue;
     ++statistics.contacts;
-    if (const auto lead = leadOf(episode, rule)) statistics.leads.push_back(sweep_guard_core::toSeconds(*lead));
+    if (const auto lead = leadOf(*placement.contact, levels[i], rule))
+      statistics.leads.push_back(sweep_guard_core::toSeconds(*lead));
   }
   std::sort(statistics.leads.begin(), statistics.leads.end());
   return statistics;

@@ -2,16 +2,12 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-
-#include "guard/contact_probability.h"
 
 namespace sweep_guard_evaluation {
 
 using sweep_guard_core::Duration;
-using sweep_guard_core::kMaxDeviations;
 using sweep_guard_core::Time;
 
 namespace {
@@ -19,8 +15,6 @@ namespace {
 constexpr Duration kPeriod = std::chrono::milliseconds(50);
 constexpr double kLeastFall = 0.001;
 constexpr int kIterations = 20000;
-constexpr std::array<double, 13> kKnots = {-kMaxDeviations, -2.0, -1.0, -0.5, 0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 2.5,
-                                           kMaxDeviations};
 using KnotVector = Eigen::Matrix<double, kKnots.size(), 1>;
 using KnotMatrix = Eigen::Matrix<double, kKnots.size(), kKnots.size()>;
 
@@ -133,7 +127,7 @@ Calibration calibrationOf(std::vector<Forecast> forecasts) {
   return calibration;
 }
 
-std::vector<ProbabilityKnot> fitProbability(const std::vector<PredictionOutcome>& outcomes) {
+std::vector<double> fitProbability(const std::vector<PredictionOutcome>& outcomes) {
   KnotMatrix A = KnotMatrix::Zero();
   KnotVector b = KnotVector::Zero();
   for (const PredictionOutcome& outcome : outcomes) {
@@ -142,20 +136,20 @@ std::vector<ProbabilityKnot> fitProbability(const std::vector<PredictionOutcome>
     if (outcome.met) b += sums;
   }
   const KnotVector falls = minimize(A, b);
-  std::vector<ProbabilityKnot> knots(kKnots.size());
+  std::vector<double> at_knots(kKnots.size());
   double sum = 0.0;
   for (size_t k = kKnots.size(); k-- > 0;) {
     sum += falls[static_cast<Eigen::Index>(k)];
-    knots[k] = {kKnots[k], std::min(sum, 1.0)};
+    at_knots[k] = std::min(sum, 1.0);
   }
-  return knots;
+  return at_knots;
 }
 
-double probabilityAt(const std::vector<ProbabilityKnot>& knots, double deviations) {
+double probabilityAt(const std::vector<double>& at_knots, double deviations) {
   if (deviations > kMaxDeviations) return 0.0;
   const KnotVector shares = sharesAt(deviations);
   double sum = 0.0;
-  for (size_t k = 0; k < knots.size(); ++k) sum += shares[static_cast<Eigen::Index>(k)] * knots[k].probability;
+  for (size_t k = 0; k < at_knots.size(); ++k) sum += shares[static_cast<Eigen::Index>(k)] * at_knots[k];
   return sum;
 }
 

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "evaluation/guard_findings.h"
 #include "evaluation/session_count.h"
+#include "guard/contact_probability.h"
 
 namespace sweep_guard_evaluation {
+
+using sweep_guard_core::kMaxDeviations;
 
 /// A prediction about one object for an interval, and what became of it.
 struct PredictionOutcome {
@@ -53,17 +57,17 @@ constexpr size_t kBins = 10;
 
 Calibration calibrationOf(std::vector<Forecast> forecasts);
 
-/// A probability that falls with the deviations: linear between knots, 0 beyond the last one.
-struct ProbabilityKnot {
-  double deviations;
-  double probability;
-};
+/// Deviations of the knots of a probability that falls with them: linear between knots, 0 beyond the last one.
+constexpr std::array<double, 13> kKnots = {-kMaxDeviations, -2.0, -1.0, -0.5, 0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 2.5,
+                                           kMaxDeviations};
 
-/// Fits the probability of being met to outcomes: least squares, which is the smallest Brier score, with knots at fixed
-/// deviations. From knot to knot it falls by at least 0.001.
-std::vector<ProbabilityKnot> fitProbability(const std::vector<PredictionOutcome>& outcomes);
+/// Fits the probability of being met to outcomes: least squares, which is the smallest Brier score. From knot to knot it falls
+/// by at least 0.001.
+/// @return at kKnots
+std::vector<double> fitProbability(const std::vector<PredictionOutcome>& outcomes);
 
 /// Returns the probability between the knots.
-double probabilityAt(const std::vector<ProbabilityKnot>& knots, double deviations);
+/// @param at_knots  as of fitProbability()
+double probabilityAt(const std::vector<double>& at_knots, double deviations);
 
 }  // namespace sweep_guard_evaluation

@@ -62,14 +62,14 @@ std::string binsTable(const IntervalCalibration& calibration) {
 
 std::string knotsTable(const std::vector<IntervalCalibration>& calibrations) {
   std::string table = "knots fitted to all recordings: deviations";
-  std::vector<std::vector<ProbabilityKnot>> fitted;
+  std::vector<std::vector<double>> fitted;
   for (const IntervalCalibration& calibration : calibrations) {
     table += fmt::format(", within {:g} s", toSeconds(calibration.length));
     fitted.push_back(fitProbability(allBut(calibration.outcomes, calibration.outcomes.size())));
   }
-  for (size_t k = 0; k < fitted.front().size(); ++k) {
-    table += fmt::format("\n  {{{:g}", fitted.front()[k].deviations);
-    for (const auto& knots : fitted) table += fmt::format(", {:.4f}", knots[k].probability);
+  for (size_t k = 0; k < kKnots.size(); ++k) {
+    table += fmt::format("\n  {{{:g}", kKnots[k]);
+    for (const auto& at_knots : fitted) table += fmt::format(", {:.4f}", at_knots[k]);
     table += "},";
   }
   return table + '\n';
@@ -78,8 +78,7 @@ std::string knotsTable(const std::vector<IntervalCalibration>& calibrations) {
 }  // namespace
 
 std::vector<Forecast> IntervalCalibration::forecasts(Scale scale, size_t recording) const {
-  const auto knots =
-      scale == Scale::kOthers ? fitProbability(allBut(outcomes, recording)) : std::vector<ProbabilityKnot>();
+  const auto knots = scale == Scale::kOthers ? fitProbability(allBut(outcomes, recording)) : std::vector<double>();
   const auto probabilityOf = [&](double deviations) {
     if (scale == Scale::kPlane) return sweep_guard_core::contactProbability(deviations);
     if (scale == Scale::kGuard) return sweep_guard_core::probabilityWithin(interval, deviations);

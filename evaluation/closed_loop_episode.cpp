@@ -35,8 +35,8 @@ double keptShareOf(const Twist& output_W, const Twist& command_W, double radius)
 
 DelayedGuardOptions guardOf(const ClosedLoopSetup& setup) {
   DelayedGuardOptions options = setup.guard;
-  options.motion.dead_time = setup.delays.dead_time;
-  options.motion.time_constant = setup.delays.lag;
+  options.motion.dead_time = setup.robot.dead_time;
+  options.motion.time_constant = setup.robot.lag;
   return options;
 }
 
@@ -92,21 +92,19 @@ class Account {
   double carried_ = 0.0;
 };
 
-SurfaceVelocity velocityOf(const LoopScene& scene, const DrivenRobot& driven, const LoopPlacement& placement,
-                           SurfaceMotionKind kind, Random& random) {
-  if (kind == SurfaceMotionKind::kRests) return {};
-  const Eigen::Isometry3d X_MT = driven.cycles[placement.begin].robot.pose();
+// Of a surface that comes to a robot that begins at a cycle.
+SurfaceVelocity velocityOf(const LoopScene& scene, const DrivenRobot::Cycle& begin, Time end, Random& random) {
+  const Eigen::Isometry3d X_MT = begin.robot.pose();
   const double side = scene.separationAt(X_MT).normal.dot(scene.normal_M()) >= 0.0 ? 1.0 : -1.0;
-  return {side * random.uniform(kMinApproach, kMaxApproach) * scene.normal_M(), placement.placement.end};
+  return {side * random.uniform(kMinApproach, kMaxApproach) * scene.normal_M(), end};
 }
 
 // A robot that rests where the placement has its contact, from the begin of the episode to its end.
-DrivenRobot resting(const DrivenRobot& driven, const LoopPlacement& placement, const ClosedLoopSetup& setup) {
-  const size_t end = std::min(driven.cycleAt(placement.placement.end), driven.cycles.size() - 1);
-  const SimulatedRobot robot(driven.cycles[end].robot.pose(), setup.delays);
+DrivenRobot resting(const DrivenRobot& driven, const ObstaclePlacement& placement, const ClosedLoopSetup& setup) {
+  const size_t end = std::min(driven.cycleAt(placement.end), driven.cycles.size() - 1);
+  const SimulatedRobot robot(driven.cycles[end].robot.pose(), setup.robot);
   DrivenRobot at_rest;
-  Time time = driven.cycles[placement.begin].time;
-  for (; time < placement.placement.end + kAfterPlacement; time += kCommandPeriod)
+  for (Time time = placement.begin; time < placement.end + kAfterPlacement; time += kCommandPeriod)
     at_rest.cycles.push_back({time, {}, robot});
   return at_rest;
 }
@@ -128,11 +126,11 @@ sweep_guard_core::Tool inPieces(const sweep_guard_core::ConvexShape& cylinder, s
   return sweep_guard_core::Tool(pieces);
 }
 
-std::optional<LoopPlacement> beginOf(const DrivenRobot& driven, const ObstaclePlacement& placement,
-                                     const ClosedLoopSetup& setup) {
+std::optional<Time> beginOf(const DrivenRobot& driven, const ObstaclePlacement& placement,
+                            const ClosedLoopSetup& setup) {
   LoopScene scene(setup.tool, placement.obstacle);
   const size_t latest = driven.cycleAt(placement.begin);
-  std::optional<LoopPlacement> found;
+  std::optional<Time> found;
   std::optional<ClosedLoop> loop;
   size_t watched = 0;
   size_t passed = 0;
@@ -145,46 +143,52 @@ std::optional<LoopPlacement> beginOf(const DrivenRobot& driven, const ObstaclePl
     passed = watch(*loop, driven, cycle) ? passed + 1 : 0;
     if (++watched > kUntilPlanes && passed == 0) loop.reset();  // it would go on from what was not sent
     const bool apart = scene.separationAt(driven.cycles[cycle + 1].robot.pose()).gap > setup.guard.motion.standoff;
-    if (passed >= kUntouchedCycles && apart) found = LoopPlacement{placement, cycle + 1};
+    if (passed >= kUntouchedCycles && apart) found = driven.cycles[cycle + 1].time;
   }
   return found;
 }
 
-ClosedLoopEpisode runEpisode(const DrivenRobot& driven, const LoopPlacement& placement, const ClosedLoopSetup& setup,
-                             const EpisodeKind& kind) {
+ClosedLoopEpisode runEpisode(const DrivenRobot& driven, const ObstaclePlacement& placement,
+                             const ClosedLoopSetup& setup, const EpisodeKind& kind) {
   Random random(kind.seed);
-  LoopScene scene(setup.tool, placement.placement.obstacle);
-  const SurfaceVelocity surface = velocityOf(scene, driven, placement, kind.surface, random);
-  size_t cycle = cyclesBefore(driven, placement.begin, kUntouchedCycles + kUntilPlanes);
+  LoopScene scene(setup.tool, placement.obstacle);
+  const size_t begin = driven.cycleAt(placement.begin);
+  SurfaceVelocity surface;
+  if (kind.surface_comes) surface = velocityOf(scene, driven.cycles[begin], placement.end, random);
+  size_t cycle = cyclesBefore(driven, begin, kUntouchedCycles + kUntilPlanes);
   ClosedLoop loop = loopAt(scene, driven, cycle, surface, setup);
   if (kind.guarded) loop.addGuard(guardOf(setup));
-  for (; cycle < placement.begin; ++cycle) watch(loop, driven, cycle);
+  for (; cycle < begin; ++cycle) watch(loop, driven, cycle);
 
   ClosedLoopEpisode episode;
   Account account(setup, episode);
-  std::optional<HeldTool> held;
+  std::optional<ClosedLoop> held;
   double least_kept = kHeld;
   std::vector<Twist> came_W;
-  const Time end = placement.placement.end + kAfterPlacement;
+  std::vector<Twist> came_to_held_W;
+  const Time end = placement.end + kAfterPlacement;
   for (; driven.cycles[cycle].time < end && !episode.contact; ++cycle) {
     const LoopCycle ran = loop.run(driven.cycles[cycle].command_W);
     account.add(ran);
     came_W.push_back(loop.robot().velocity_W());
     const double kept = keptShareOf(ran.output_W, ran.command_W, setup.tool.boundingRadius());
-    if (kept < least_kept) held.emplace(HeldTool{loop, newest(came_W, kCame)});
-    least_kept = std::min(least_kept, kept);
+    if (kept < least_kept) {
+      least_kept = kept;
+      held.emplace(loop);
+      came_to_held_W = newest(came_W, kCame);
+    }
     if (!followsAt(driven, cycle)) break;
   }
-  if (held && kind.surface == SurfaceMotionKind::kRests) {
+  if (held && !kind.surface_comes) {
     scene.startAgain();
-    episode.retreats = retreatFrom(*held, setup.limits, setup.random_retreats, random);
+    episode.retreats = retreatFrom(*held, came_to_held_W, setup.robot, setup.random_retreats, random);
   }
   return episode;
 }
 
-ClosedLoopEpisode runEpisodeAtRest(const DrivenRobot& driven, const LoopPlacement& placement,
+ClosedLoopEpisode runEpisodeAtRest(const DrivenRobot& driven, const ObstaclePlacement& placement,
                                    const ClosedLoopSetup& setup, const EpisodeKind& kind) {
-  return runEpisode(resting(driven, placement, setup), {placement.placement, 0}, setup, kind);
+  return runEpisode(resting(driven, placement, setup), placement, setup, kind);
 }
 
 }  // namespace sweep_guard_evaluation

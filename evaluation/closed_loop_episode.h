@@ -11,10 +11,11 @@ namespace sweep_guard_evaluation {
 struct ClosedLoopSetup {
   sweep_guard_core::ConvexShape shape = sweep_guard_core::ConvexShape::cylinder(/*radius=*/0.005, /*length=*/0.1);
   sweep_guard_core::Tool tool{shape};  ///< of this shape, in one or more pieces
-  RobotLimits limits;
-  RobotDelays delays;
-  DelayedGuardOptions guard;   ///< its delays of the robot are replaced by `delays`
+  RobotOptions robot;
+  DelayedGuardOptions guard;   ///< its delays of the robot are replaced by those of `robot`
   size_t random_retreats = 4;  ///< of each kind, from each place where the guard held the tool
+  size_t placements = 80;      ///< along each recording
+  std::uint64_t seed = 1;      ///< of the placements
 };
 
 /// What happened at one placement.
@@ -28,14 +29,10 @@ struct ClosedLoopEpisode {
   std::vector<Retreat> retreats;
 };
 
-/// How a surface moves.
-enum class SurfaceMotionKind : std::uint8_t {
-  kRests,
-  kComes  ///< along its normal to the tool; it is where the placement has it when the placement ends
-};
-
 struct EpisodeKind {
-  SurfaceMotionKind surface = SurfaceMotionKind::kRests;
+  /// The surface comes along its normal to the tool, and is where the placement has it when the placement ends. False:
+  /// it rests there.
+  bool surface_comes = false;
   bool guarded = true;     ///< false: commands go to the robot as they are
   std::uint64_t seed = 1;  ///< of the retreats, and of the speed of a surface that comes, 0.05 to 0.3 m/s
 };
@@ -43,25 +40,20 @@ struct EpisodeKind {
 /// Returns a cylinder as a tool of pieces end to end.
 sweep_guard_core::Tool inPieces(const sweep_guard_core::ConvexShape& cylinder, size_t count);
 
-/// A placement, and when the loop begins.
-struct LoopPlacement {
-  ObstaclePlacement placement;
-  size_t begin;  ///< first cycle of the driven robot
-};
-
 /// Returns when the episode of a placement may begin: at the latest cycle, not after that of the placement, at which the
 /// tool is beyond the standoff and a guard has passed on every command for 0.2 s. A tool that is already too near and too
 /// fast when a surface appears could not be stopped by any guard. Empty: there is no such cycle in the 4 s before.
-std::optional<LoopPlacement> beginOf(const DrivenRobot& driven, const ObstaclePlacement& placement,
-                                     const ClosedLoopSetup& setup);
+std::optional<sweep_guard_core::Time> beginOf(const DrivenRobot& driven, const ObstaclePlacement& placement,
+                                              const ClosedLoopSetup& setup);
 
 /// Runs one placement, until 2 s after its end, to the first contact or to a gap of the recording. The retreats are those
 /// from where a guard took most of a command, if that was more than half of it, before a surface at rest.
-ClosedLoopEpisode runEpisode(const DrivenRobot& driven, const LoopPlacement& placement, const ClosedLoopSetup& setup,
-                             const EpisodeKind& kind);
+/// @param placement  begins at a cycle of the driven robot, as beginOf() found it
+ClosedLoopEpisode runEpisode(const DrivenRobot& driven, const ObstaclePlacement& placement,
+                             const ClosedLoopSetup& setup, const EpisodeKind& kind);
 
 /// Runs one placement with a robot that rests where the driven one is when the placement ends.
-ClosedLoopEpisode runEpisodeAtRest(const DrivenRobot& driven, const LoopPlacement& placement,
+ClosedLoopEpisode runEpisodeAtRest(const DrivenRobot& driven, const ObstaclePlacement& placement,
                                    const ClosedLoopSetup& setup, const EpisodeKind& kind);
 
 }  // namespace sweep_guard_evaluation

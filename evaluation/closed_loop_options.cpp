@@ -35,15 +35,15 @@ po::options_description describe(ClosedLoopOptions& options) {
 
 po::options_description describeRobot(const ClosedLoopSetup& setup) {
   po::options_description described("Robot and guard");
-  described.add_options()("max-speed", withDefault(csvNumber(setup.limits.max_speed), "V"),
+  described.add_options()("max-speed", withDefault(csvNumber(setup.robot.max_speed), "V"),
                           "commands are clipped to this first [m/s]")(
-      "max-turn-rate", withDefault(csvNumber(setup.limits.max_turn_rate), "W"), "the same of turns [rad/s]")(
-      "max-acceleration", withDefault(csvNumber(setup.limits.max_acceleration), "A"),
+      "max-turn-rate", withDefault(csvNumber(setup.robot.max_turn_rate), "W"), "the same of turns [rad/s]")(
+      "max-acceleration", withDefault(csvNumber(setup.robot.max_acceleration), "A"),
       "commands are clipped to this first [m/s^2]")(
-      "max-turn-acceleration", withDefault(csvNumber(setup.limits.max_turn_acceleration), "A"),
-      "the same of turns [rad/s^2]")("dead-time", withDefault(inSeconds(setup.delays.dead_time), "S"),
+      "max-turn-acceleration", withDefault(csvNumber(setup.robot.max_turn_acceleration), "A"),
+      "the same of turns [rad/s^2]")("dead-time", withDefault(inSeconds(setup.robot.dead_time), "S"),
                                      "until the robot begins to follow [s], rounded to milliseconds")(
-      "lag", withDefault(inSeconds(setup.delays.lag), "S"), "time constant with which it follows [s]")(
+      "lag", withDefault(inSeconds(setup.robot.lag), "S"), "time constant with which it follows [s]")(
       "pose-delay", withDefault(inSeconds(setup.guard.pose_delay), "S"), "until a pose arrives at the guard [s]")(
       "plane-delay", withDefault(inSeconds(setup.guard.plane_delay), "S"), "until its planes arrive [s]")(
       "deceleration", withDefault(csvNumber(setup.guard.motion.deceleration), "A"),
@@ -59,16 +59,19 @@ void storeLoop(const po::variables_map& values, ClosedLoopOptions& options) {
     return toNumber(option, values[option].as<std::string>(), lower, upper);
   };
   const auto seconds = [&](const char* option) { return sweep_guard_core::fromSeconds(number(option, 0.0, 1.0)); };
-  options.placement.count = number("placements", size_t{1}, size_t{100000});
-  options.placement.seed = number("seed", std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max());
   ClosedLoopSetup& setup = options.setup;
+  setup.placements = number("placements", size_t{1}, size_t{100000});
+  setup.seed = number("seed", std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max());
   setup.random_retreats = number("retreats", size_t{0}, size_t{1000});
   setup.shape =
       sweep_guard_core::ConvexShape::cylinder(number("tool-radius", 1e-3, 1.0), number("tool-length", 1e-3, 10.0));
   setup.tool = inPieces(setup.shape, number("pieces", size_t{1}, size_t{100}));
-  setup.limits = {number("max-speed", 1e-3, 10.0), number("max-turn-rate", 1e-3, 100.0),
-                  number("max-acceleration", 1e-3, 1e3), number("max-turn-acceleration", 1e-3, 1e4)};
-  setup.delays = {std::chrono::round<std::chrono::milliseconds>(seconds("dead-time")), seconds("lag")};
+  setup.robot = {number("max-speed", 1e-3, 10.0),
+                 number("max-turn-rate", 1e-3, 100.0),
+                 number("max-acceleration", 1e-3, 1e3),
+                 number("max-turn-acceleration", 1e-3, 1e4),
+                 std::chrono::round<std::chrono::milliseconds>(seconds("dead-time")),
+                 seconds("lag")};
   setup.guard.pose_delay = seconds("pose-delay");
   setup.guard.plane_delay = seconds("plane-delay");
   setup.guard.motion.deceleration = number("deceleration", 1e-3, 1e3);

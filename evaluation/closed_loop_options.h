@@ -14,7 +14,6 @@ struct ClosedLoopOptions {
   std::string topic;               ///< of the rosbags; empty: the only topic with poses
   std::string csv;                 ///< file to write; empty: none
   ClosedLoopSetup setup;
-  ObstaclePlacementOptions placement;
 };
 
 /// Returns the text of --help.

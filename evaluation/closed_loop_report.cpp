@@ -25,43 +25,41 @@ constexpr std::array<const char*, kRetreatKinds> kRetreats = {"along the normal"
 constexpr double kKept = 0.99;
 constexpr double kMaxStandoffSpeed = 0.001;  // [m/s]
 
-// A recording, and the placements along the path of the robot without a guard.
-struct DrivenRecording {
-  std::string name;
-  DrivenRobot robot;
-  std::vector<LoopPlacement> placements;
-};
-
-DrivenRecording driveRecording(const Recording& recording, const ClosedLoopSetup& setup,
-                               const ObstaclePlacementOptions& options, size_t& left_out) {
-  DrivenRecording driven{recording.name, drive(RecordedMotion(recording.poses), setup.limits, setup.delays), {}};
-  const auto placements = placeObstacles(RecordedMotion(driven.robot.path), setup.shape, options);
-  for (const ObstaclePlacement& placement : placements) {
-    const auto loop_placement = beginOf(driven.robot, placement, setup);
-    if (loop_placement) driven.placements.push_back(*loop_placement);
+// Along the path of the robot without a guard, each from where its episode begins.
+std::vector<ObstaclePlacement> placeAlong(const DrivenRobot& driven, const ClosedLoopSetup& setup, size_t& left_out) {
+  std::vector<ObstaclePlacement> placements;
+  for (ObstaclePlacement& placement :
+       placeObstacles(RecordedMotion(driven.path), setup.shape, setup.placements, setup.seed)) {
+    if (const auto begin = beginOf(driven, placement, setup)) {
+      placement.begin = *begin;
+      placements.push_back(placement);
+    } else {
+      ++left_out;
+    }
   }
-  left_out += placements.size() - driven.placements.size();
-  return driven;
+  return placements;
 }
 
 // Where the motion runs into the surface.
-std::vector<LoopPlacement> withContact(const std::vector<LoopPlacement>& placements) {
-  std::vector<LoopPlacement> met;
+std::vector<ObstaclePlacement> withContact(const std::vector<ObstaclePlacement>& placements) {
+  std::vector<ObstaclePlacement> met;
   std::copy_if(placements.begin(), placements.end(), std::back_inserter(met),
-               [](const LoopPlacement& each) { return each.placement.contact.has_value(); });
+               [](const ObstaclePlacement& each) { return each.contact.has_value(); });
   return met;
 }
 
-using Run = std::function<ClosedLoopEpisode(const LoopPlacement&, const EpisodeKind&)>;
+using Run = std::function<ClosedLoopEpisode(const ObstaclePlacement&, const EpisodeKind&)>;
 
 // Counts the episodes without and with a guard.
-void addCounts(const std::string& name, const std::vector<LoopPlacement>& placements, SurfaceMotionKind surface,
+void addCounts(const std::string& name, const std::vector<ObstaclePlacement>& placements, bool surface_comes,
                const Run& run, std::vector<ClosedLoopCount>& counts) {
   std::vector<ClosedLoopCount> arms(2);
   for (const bool guarded : {false, true}) {
     ClosedLoopCount& count = arms[guarded ? 1 : 0];
     count = {name, guarded, std::vector<ClosedLoopEpisode>(placements.size()), {}};
-    inParallel(placements.size(), [&](size_t i) { count.episodes[i] = run(placements[i], {surface, guarded, i + 1}); });
+    inParallel(placements.size(), [&](size_t i) {
+      count.episodes[i] = run(placements[i], {surface_comes, guarded, i + 1});
+    });
     for (const ClosedLoopEpisode& episode : arms[0].episodes) count.near_misses.push_back(!episode.contact);
   }
   counts.insert(counts.end(), arms.begin(), arms.end());
@@ -71,7 +69,7 @@ bool surfaceComes(const ClosedLoopCount& count) { return count.recording.find(kM
 
 // The figures of one line.
 struct Figures {
-  explicit Figures(const ClosedLoopCount& count) : guarded(count.guarded), placements(count.episodes.size()) {
+  explicit Figures(const ClosedLoopCount& count) : placements(count.episodes.size()) {
     for (size_t i = 0; i < count.episodes.size(); ++i) add(count.episodes[i], count.near_misses[i]);
   }
 
@@ -103,7 +101,6 @@ struct Figures {
     return all > 0 ? static_cast<double>(part) / static_cast<double>(all) : std::numeric_limits<double>::quiet_NaN();
   }
 
-  bool guarded;
   size_t placements;
   std::vector<double> closing_speeds;
   std::vector<double> tool_speeds;
@@ -144,21 +141,21 @@ std::string lineOf(const ClosedLoopCount& count) {
 }  // namespace
 
 std::vector<ClosedLoopCount> countClosedLoops(const std::vector<Recording>& recordings, const ClosedLoopSetup& setup,
-                                              const ObstaclePlacementOptions& placement, size_t& left_out,
-                                              const Progress& progress) {
+                                              size_t& left_out, const Progress& progress) {
   std::vector<ClosedLoopCount> counts;
   for (const Recording& recording : recordings) {
-    const DrivenRecording driven = driveRecording(recording, setup, placement, left_out);
-    const Run run = [&](const LoopPlacement& each, const EpisodeKind& kind) {
-      return runEpisode(driven.robot, each, setup, kind);
+    const DrivenRobot driven = drive(RecordedMotion(recording.poses), setup.robot);
+    const std::vector<ObstaclePlacement> placements = placeAlong(driven, setup, left_out);
+    const Run run = [&](const ObstaclePlacement& each, const EpisodeKind& kind) {
+      return runEpisode(driven, each, setup, kind);
     };
-    const Run run_at_rest = [&](const LoopPlacement& each, const EpisodeKind& kind) {
-      return runEpisodeAtRest(driven.robot, each, setup, kind);
+    const Run run_at_rest = [&](const ObstaclePlacement& each, const EpisodeKind& kind) {
+      return runEpisodeAtRest(driven, each, setup, kind);
     };
-    const auto met = withContact(driven.placements);
-    addCounts(driven.name, driven.placements, SurfaceMotionKind::kRests, run, counts);
-    addCounts(driven.name + kMoving, met, SurfaceMotionKind::kComes, run, counts);
-    addCounts(driven.name + kAtRest, met, SurfaceMotionKind::kComes, run_at_rest, counts);
+    const std::vector<ObstaclePlacement> met = withContact(placements);
+    addCounts(recording.name, placements, /*surface_comes=*/false, run, counts);
+    addCounts(recording.name + kMoving, met, /*surface_comes=*/true, run, counts);
+    addCounts(recording.name + kAtRest, met, /*surface_comes=*/true, run_at_rest, counts);
     progress(recording.poses.size());
   }
   return counts;

@@ -26,14 +26,14 @@ size_t DrivenRobot::cycleAt(Time time) const {
   return static_cast<size_t>(found - cycles.begin());
 }
 
-DrivenRobot drive(const RecordedMotion& motion, const RobotLimits& limits, const RobotDelays& delays) {
+DrivenRobot drive(const RecordedMotion& motion, const RobotOptions& options) {
   DrivenRobot driven;
   for (const auto& segment : motion.segments()) {
-    SimulatedRobot robot(motion.at(segment.begin), delays);
+    SimulatedRobot robot(motion.at(segment.begin), options);
     driven.path.push_back({segment.begin, robot.pose()});
     Twist command_W;
     for (Time time = segment.begin; time + kCommandPeriod <= segment.end; time += kCommandPeriod) {
-      command_W = clipped(velocityAt(motion, time), command_W, limits, toSeconds(kCommandPeriod));
+      command_W = clipped(velocityAt(motion, time), command_W, options, toSeconds(kCommandPeriod));
       driven.cycles.push_back({time, command_W, robot});
       robot.send(command_W);
       for (Time end = time + SimulatedRobot::kStep; end <= time + kCommandPeriod; end += SimulatedRobot::kStep) {

@@ -26,6 +26,6 @@ struct DrivenRobot {
 
 /// Drives a robot by the velocities of a recorded motion. In each segment without a gap it begins at rest at the first
 /// pose. Each velocity is that of the recording until the next command.
-DrivenRobot drive(const RecordedMotion& motion, const RobotLimits& limits, const RobotDelays& delays);
+DrivenRobot drive(const RecordedMotion& motion, const RobotOptions& options);
 
 }  // namespace sweep_guard_evaluation

@@ -10,25 +10,10 @@ using sweep_guard_recording::Recording;
 
 namespace {
 
-/// A recording, its samples and the errors of all predictors.
-struct RecordingErrors {
-  RecordingErrors(const Recording& source, sweep_guard_core::Duration future)
-      : recording(source), motion(source.poses), samples(samplesOf(source.poses, motion, kHistory, future)) {}
-
-  const Recording& recording;
-  RecordedMotion motion;
-  std::vector<size_t> samples;
-  std::vector<std::vector<ErrorsAhead>> errors;  // by predictor, then by horizon
-};
-
 sweep_guard_core::PredictorOptions withPredictor(sweep_guard_core::PredictorOptions options,
                                                  const std::string& predictor) {
   options.predictor = predictor;
   return options;
-}
-
-std::array<AlarmStatistics, 2> statisticsOf(const std::vector<Episode>& episodes) {
-  return {alarmStatistics(episodes, alarmRules()[0]), alarmStatistics(episodes, alarmRules()[1])};
 }
 
 WarningReport emptyReport(const std::string& recording, size_t placements, const Options& options) {
@@ -45,23 +30,24 @@ WarningReport emptyReport(const std::string& recording, size_t placements, const
 
 std::vector<ErrorReport> reportErrors(const std::vector<Recording>& recordings, const Options& options,
                                       const Progress& progress) {
-  std::vector<RecordingErrors> cases;
+  const sweep_guard_core::Duration future = std::max(kFuture, options.horizons.back());
+  const size_t predictors = options.predictors.size();
+  std::vector<SampledMotion> motions;
   for (const Recording& recording : recordings) {
-    cases.emplace_back(recording, std::max(kFuture, options.horizons.back()));
-    cases.back().errors.resize(options.predictors.size());
+    const RecordedMotion motion(recording.poses);
+    motions.push_back({recording.poses, motion, samplesOf(recording.poses, motion, kHistory, future)});
   }
-  inParallel(cases.size() * options.predictors.size(), [&](size_t i) {
-    RecordingErrors& current = cases[i / options.predictors.size()];
-    const size_t predictor = i % options.predictors.size();
-    current.errors[predictor] =
-        predictionErrors({current.recording.poses, current.motion, current.samples, options.horizons,
-                          withPredictor(options.predictor, options.predictors[predictor])},
-                         progress);
+  std::vector<std::vector<std::vector<ErrorsAhead>>> errors(recordings.size(),
+                                                            std::vector<std::vector<ErrorsAhead>>(predictors));
+  inParallel(recordings.size() * predictors, [&](size_t i) {
+    const auto predictor = withPredictor(options.predictor, options.predictors[i % predictors]);
+    errors[i / predictors][i % predictors] =
+        predictionErrors(motions[i / predictors], options.horizons, predictor, progress);
   });
   std::vector<ErrorReport> reports;
-  reports.reserve(cases.size());
-  for (const RecordingErrors& current : cases)
-    reports.push_back({current.recording.name, options.predictors, options.horizons, summaries(current.errors)});
+  reports.reserve(recordings.size());
+  for (size_t i = 0; i < recordings.size(); ++i)
+    reports.push_back({recordings[i].name, options.predictors, options.horizons, summaries(errors[i])});
   return reports;
 }
 
@@ -70,7 +56,8 @@ std::vector<WarningReport> reportWarnings(const std::vector<Recording>& recordin
   std::vector<std::vector<ObstaclePlacement>> placements;
   std::vector<WarningReport> reports;
   for (const Recording& recording : recordings) {
-    placements.push_back(placeObstacles(RecordedMotion(recording.poses), options.simulation.tool, options.placement));
+    placements.push_back(
+        placeObstacles(RecordedMotion(recording.poses), options.simulation.tool, options.placements, options.seed));
     reports.push_back(emptyReport(recording.name, placements.back().size(), options));
   }
   inParallel(recordings.size() * options.predictors.size(), [&](size_t i) {
@@ -80,9 +67,10 @@ std::vector<WarningReport> reportWarnings(const std::vector<Recording>& recordin
     GuardSimulationOptions simulation = options.simulation;
     simulation.guard.predictor = withPredictor(options.predictor, options.predictors[predictor]);
     simulation.min_probabilities = report.min_probabilities;
-    for (const auto& episodes :
-         simulateGuard(recordings[recording].poses, placements[recording], simulation, progress)) {
-      report.statistics[predictor].push_back(statisticsOf(episodes));
+    const auto& placed = placements[recording];
+    for (const auto& levels : simulateGuard(recordings[recording].poses, placed, simulation, progress)) {
+      report.statistics[predictor].push_back(
+          {alarmStatistics(placed, levels, alarmRules()[0]), alarmStatistics(placed, levels, alarmRules()[1])});
     }
   });
   return reports;

@@ -32,7 +32,7 @@ std::vector<Recording> readAll(const Options& options) {
 std::vector<sweep_guard_core::TriangleMesh> readMeshes(const std::vector<std::string>& files, double scale) {
   std::vector<sweep_guard_core::TriangleMesh> meshes;
   for (const std::string& file : files) {
-    auto surface = sweep_guard_ros::readMesh(file, sweep_guard_ros::SymbolicLinks::kFollow);
+    auto surface = sweep_guard_ros::readMesh(file, /*follow_link=*/true);
     for (Eigen::Vector3d& vertex : surface.vertices) vertex *= scale;
     meshes.emplace_back(surface.vertices, std::move(surface.triangles));
   }

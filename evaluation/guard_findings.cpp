@@ -137,7 +137,7 @@ class FindingsRecorder {
       if (!sweep.contact && sweep.deviations >= nearest) continue;
       nearest = std::min(nearest, sweep.deviations);
       pending(number);
-      findings_.objects[number].sweeps.push_back({sweep.from, sweep.deviations, sweep.contact});
+      findings_.objects[number].sweeps.push_back(sweep);
     }
   }
 
@@ -234,8 +234,7 @@ class FindingsPlayer {
     object.workpiece = workpiece_;
     if (!found) return;
     for (size_t i = object_.sweepsBegin(next_); i < object_.poses[next_].sweeps_end; ++i) {
-      const ObjectFindings::Sweep& sweep = object_.sweeps[i];
-      object.sweeps.push_back({sweep.from, sweep.contact, sweep.deviations});
+      object.sweeps.push_back(object_.sweeps[i]);
       predicted_until_ = stamp + findings_.lengths[pose];
     }
   }

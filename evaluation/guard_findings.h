@@ -10,12 +10,6 @@ namespace sweep_guard_evaluation {
 
 /// Keeps what a guard found about one object, so that warnings can be computed for any limits without sweeping again.
 struct ObjectFindings {
-  /// A predicted sweep that meets the object, or comes nearer to it than every sweep before it.
-  struct Sweep {
-    sweep_guard_core::Duration from;  ///< after the stamp of the pose
-    double deviations;                ///< as in PredictedSweep
-    bool contact;
-  };
   struct AtPose {
     size_t pose;
     bool contact;  ///< of the sweep to this pose
@@ -23,7 +17,9 @@ struct ObjectFindings {
   };
 
   std::vector<AtPose> poses;  ///< where something was found: a contact, or a sweep that comes near
-  std::vector<Sweep> sweeps;  ///< those of all poses, one pose after the other
+  /// Predicted sweeps that meet the object, or come nearer to it than every sweep before; those of all poses, one pose
+  /// after the other.
+  std::vector<sweep_guard_core::PredictedSweep> sweeps;
 
   /// Returns the number of the first sweep of one of `poses`.
   size_t sweepsBegin(size_t found) const { return found == 0 ? 0 : poses[found - 1].sweeps_end; }

@@ -23,23 +23,21 @@ constexpr double kRestSpeed = 0.01;       // [m/s] below, the tool rests
 constexpr double kMaxGap = 0.1;           // [m] of a near miss
 constexpr int kTriesForPlacement = 1000;  // for each placement, on average
 
-/// A moment of the motion that has room for an episode.
-struct EpisodeMoment {
-  Time time;
-  Eigen::Isometry3d X_WT;
-  Eigen::Vector3d velocity_W;  // of the tip [m/s]
-};
+/// Returns the velocity of the tip [m/s].
+Eigen::Vector3d tipVelocityAt(const RecordedMotion& motion, Time time) {
+  const Eigen::Vector3d displacement_W =
+      motion.at(time + kHalfVelocityWindow).translation() - motion.at(time - kHalfVelocityWindow).translation();
+  return displacement_W / sweep_guard_core::toSeconds(2 * kHalfVelocityWindow);
+}
 
-std::optional<EpisodeMoment> randomMoment(const RecordedMotion& motion, Duration after, Random& random) {
+/// Returns a moment of the motion that has room for an episode.
+std::optional<Time> randomMoment(const RecordedMotion& motion, Duration after, Random& random) {
   const Duration length = motion.poses().back().stamp - motion.poses().front().stamp;
   const Time time = motion.poses().front().stamp +
                     sweep_guard_core::fromSeconds(random.uniform(0.0, sweep_guard_core::toSeconds(length)));
   if (!motion.isContinuous(time - kBefore - kHistoryBefore, time + after + kHalfVelocityWindow)) return std::nullopt;
-  const Eigen::Vector3d displacement_W =
-      motion.at(time + kHalfVelocityWindow).translation() - motion.at(time - kHalfVelocityWindow).translation();
-  const Eigen::Vector3d velocity_W = displacement_W / sweep_guard_core::toSeconds(2 * kHalfVelocityWindow);
-  if (velocity_W.norm() < kRestSpeed) return std::nullopt;
-  return EpisodeMoment{time, motion.at(time), velocity_W};
+  if (tipVelocityAt(motion, time).norm() < kRestSpeed) return std::nullopt;
+  return time;
 }
 
 /// Returns the tool point that is farthest along a direction.
@@ -58,10 +56,10 @@ struct ObstacleRange {
 constexpr ObstacleRange kContactRange = {60.0, 0.9, 0.0};
 constexpr ObstacleRange kMissRange = {90.0, 2.0, kMaxGap};
 
-/// Returns an obstacle in a tangent plane of the tool that faces its velocity, shifted at random.
-SquareObstacle randomObstacle(const ConvexShape& tool, const EpisodeMoment& moment, const ObstacleRange& range,
-                              Random& random) {
-  const Eigen::Matrix3d R_WV = random.frameWithZ(moment.velocity_W.normalized());
+/// Returns an obstacle in a tangent plane of the tool at a moment that faces its velocity, shifted at random.
+SquareObstacle randomObstacle(const RecordedMotion& motion, const ConvexShape& tool, Time moment,
+                              const ObstacleRange& range, Random& random) {
+  const Eigen::Matrix3d R_WV = random.frameWithZ(tipVelocityAt(motion, moment).normalized());
   const double angle = random.uniform(0.0, range.tilt * kPi / 180.0);
   const Eigen::Vector3d normal_W = R_WV * Eigen::Vector3d(std::sin(angle), 0.0, std::cos(angle));
   SquareObstacle obstacle;
@@ -71,38 +69,38 @@ SquareObstacle randomObstacle(const ConvexShape& tool, const EpisodeMoment& mome
   const double y = random.uniform(-range.shift, range.shift) * obstacle.half_side;
   const double z = random.uniform(0.0, range.distance);
   obstacle.X_WS.translation() =
-      frontPoint(tool, moment.X_WT, normal_W) + obstacle.X_WS.linear() * Eigen::Vector3d(x, y, z);
+      frontPoint(tool, motion.at(moment), normal_W) + obstacle.X_WS.linear() * Eigen::Vector3d(x, y, z);
   return obstacle;
 }
 
 std::optional<ObstaclePlacement> tryContact(const RecordedMotion& motion, const ConvexShape& tool, Random& random) {
-  const std::optional<EpisodeMoment> moment = randomMoment(motion, Duration(0), random);
+  const std::optional<Time> moment = randomMoment(motion, Duration(0), random);
   if (!moment) return std::nullopt;
-  const SquareObstacle obstacle = randomObstacle(tool, *moment, kContactRange, random);
-  const Time begin = moment->time - kBefore;
-  const std::optional<Time> contact = firstContact(motion, tool, obstacle, begin, moment->time);
+  const SquareObstacle obstacle = randomObstacle(motion, tool, *moment, kContactRange, random);
+  const Time begin = *moment - kBefore;
+  const std::optional<Time> contact = firstContact(motion, tool, obstacle, begin, *moment);
   if (!contact || *contact < begin + kUntouchedBefore) return std::nullopt;
   return ObstaclePlacement{obstacle, begin, *contact, contact};
 }
 
 std::optional<ObstaclePlacement> tryMiss(const RecordedMotion& motion, const ConvexShape& tool, Random& random) {
-  const std::optional<EpisodeMoment> moment = randomMoment(motion, kAfter + kUntouchedAfter, random);
+  const std::optional<Time> moment = randomMoment(motion, kAfter + kUntouchedAfter, random);
   if (!moment) return std::nullopt;
-  const SquareObstacle obstacle = randomObstacle(tool, *moment, kMissRange, random);
-  if (!intersects(tool, moment->X_WT, obstacle, kMaxGap)) return std::nullopt;
-  const Time begin = moment->time - kBefore;
-  const Time end = moment->time + kAfter;
+  const SquareObstacle obstacle = randomObstacle(motion, tool, *moment, kMissRange, random);
+  if (!intersects(tool, motion.at(*moment), obstacle, kMaxGap)) return std::nullopt;
+  const Time begin = *moment - kBefore;
+  const Time end = *moment + kAfter;
   if (firstContact(motion, tool, obstacle, begin, end + kUntouchedAfter)) return std::nullopt;
   return ObstaclePlacement{obstacle, begin, end, std::nullopt};
 }
 
 }  // namespace
 
-std::vector<ObstaclePlacement> placeObstacles(const RecordedMotion& motion, const ConvexShape& tool,
-                                              const ObstaclePlacementOptions& options) {
-  Random random(options.seed);
+std::vector<ObstaclePlacement> placeObstacles(const RecordedMotion& motion, const ConvexShape& tool, size_t count,
+                                              std::uint64_t seed) {
+  Random random(seed);
   std::vector<ObstaclePlacement> placements;
-  for (size_t tries = kTriesForPlacement * options.count; placements.size() < options.count && tries > 0; --tries) {
+  for (size_t tries = kTriesForPlacement * count; placements.size() < count && tries > 0; --tries) {
     const bool to_contact = placements.size() % 2 == 0;
     const std::optional<ObstaclePlacement> placement =
         to_contact ? tryContact(motion, tool, random) : tryMiss(motion, tool, random);

@@ -9,11 +9,6 @@
 
 namespace sweep_guard_evaluation {
 
-struct ObstaclePlacementOptions {
-  size_t count = 80;       ///< number of obstacles; the motion runs into one half and misses the other half
-  std::uint64_t seed = 1;  ///< equal seeds give equal placements
-};
-
 /// An obstacle on or near the path of a recorded motion, and the episode in which it is there.
 struct ObstaclePlacement {
   SquareObstacle obstacle;
@@ -29,9 +24,10 @@ struct ObstaclePlacement {
 /// misses: tilted by 0 to 90 degrees, within 0.1 m of the tool at a random moment, without contact from 4 s before to
 /// 6 s after this moment; the episode ends 4 s after it. An episode and the second before it have no gap.
 ///
+/// @param seed  equal seeds give equal placements
 /// @return ordered by begin; fewer than requested if the recording has no room for them: it is short, has gaps, or the
 ///     tool rests
 std::vector<ObstaclePlacement> placeObstacles(const RecordedMotion& motion, const sweep_guard_core::ConvexShape& tool,
-                                              const ObstaclePlacementOptions& options);
+                                              size_t count, std::uint64_t seed);
 
 }  // namespace sweep_guard_evaluation

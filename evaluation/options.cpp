@@ -133,8 +133,8 @@ void store(const po::variables_map& values, Options& options) {
   options.predictor.degree = toDegrees(word("degree"));
   options.predictor.window = seconds("window", 1e-3, 60.0);
   options.predictor.forgetting_factor = number("forgetting-factor", 1e-3, 1.0);
-  options.placement.count = number("placements", size_t{1}, size_t{100000});
-  options.placement.seed = number("seed", std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max());
+  options.placements = number("placements", size_t{1}, size_t{100000});
+  options.seed = number("seed", std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max());
   options.simulation.tool =
       sweep_guard_core::ConvexShape::cylinder(number("tool-radius", 1e-6, 100.0), number("tool-length", 1e-6, 100.0));
   options.min_probability = number("min-probability", 1e-3, 1.0);
@@ -153,7 +153,7 @@ void store(const po::variables_map& values, Options& options) {
   if (!options.tune && !options.tune_csv.empty()) throw InvalidInput("--tune-csv: needs --tune");
   options.session.sheets = number("sheets", size_t{0}, size_t{10000});
   options.session.sessions = number("session-count", size_t{1}, size_t{1000});
-  options.session.seed = options.placement.seed;
+  options.session.seed = options.seed;
   options.mesh_scale = number("mesh-scale", 1e-6, 1e6);
   if (options.wantsSessions() && options.session.sheets + options.meshes.size() + options.fixed_meshes.size() == 0) {
     throw InvalidInput("--sheets: sessions need a sheet or a mesh");

@@ -20,7 +20,8 @@ struct Options {
   std::vector<sweep_guard_core::Duration> horizons;  ///< ascending, > 0
   sweep_guard_core::PredictorOptions predictor;      ///< its name is not used; see predictors
 
-  ObstaclePlacementOptions placement;
+  size_t placements = 80;             ///< obstacles along each recording
+  std::uint64_t seed = 1;             ///< of the placements
   GuardSimulationOptions simulation;  ///< its predictor and thresholds are not used
   std::string session_predictor;      ///< the first one asked for, or the guard's default
   sweep_guard_core::WarningThresholds session_thresholds;

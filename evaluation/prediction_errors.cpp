@@ -21,34 +21,17 @@ double angleBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
   return Eigen::Quaterniond(a.linear()).angularDistance(Eigen::Quaterniond(b.linear()));
 }
 
-class Comparison {
- public:
-  Comparison(const RecordedMotion& motion, const std::vector<Duration>& horizons, size_t samples)
-      : motion_(motion), horizons_(horizons), errors_(horizons.size()) {
-    for (ErrorsAhead& ahead : errors_) {
-      ahead.position.reserve(samples);
-      ahead.rotation.reserve(samples);
-    }
+void addErrors(const RecordedMotion& motion, const std::vector<Duration>& horizons, sweep_guard_core::Time stamp,
+               const PredictedPath& path, std::vector<ErrorsAhead>& errors) {
+  for (size_t i = 0; i < horizons.size(); ++i) {
+    errors[i].position.push_back(std::numeric_limits<float>::quiet_NaN());
+    errors[i].rotation.push_back(std::numeric_limits<float>::quiet_NaN());
+    if (path.empty()) continue;
+    const Eigen::Isometry3d measured = motion.at(stamp + horizons[i]);
+    errors[i].position.back() = static_cast<float>((path[i].X_WT.translation() - measured.translation()).norm());
+    errors[i].rotation.back() = static_cast<float>(angleBetween(path[i].X_WT, measured));
   }
-
-  void add(sweep_guard_core::Time stamp, const PredictedPath& path) {
-    for (size_t i = 0; i < horizons_.size(); ++i) {
-      errors_[i].position.push_back(std::numeric_limits<float>::quiet_NaN());
-      errors_[i].rotation.push_back(std::numeric_limits<float>::quiet_NaN());
-      if (path.empty()) continue;
-      const Eigen::Isometry3d measured = motion_.at(stamp + horizons_[i]);
-      errors_[i].position.back() = static_cast<float>((path[i].X_WT.translation() - measured.translation()).norm());
-      errors_[i].rotation.back() = static_cast<float>(angleBetween(path[i].X_WT, measured));
-    }
-  }
-
-  std::vector<ErrorsAhead> errors() && { return std::move(errors_); }
-
- private:
-  const RecordedMotion& motion_;
-  const std::vector<Duration>& horizons_;
-  std::vector<ErrorsAhead> errors_;
-};
+}
 
 std::vector<double> keptErrors(const std::vector<float>& errors, const std::vector<bool>& kept) {
   std::vector<double> sample;
@@ -80,23 +63,24 @@ std::vector<size_t> samplesOf(const std::vector<StampedPose>& poses, const Recor
   return samples;
 }
 
-std::vector<ErrorsAhead> predictionErrors(const PredictionErrorRequest& request, const Progress& progress) {
-  const std::vector<StampedPose>& poses = request.poses;
-  sweep_guard_core::PosePredictor predictor(request.predictor);
+std::vector<ErrorsAhead> predictionErrors(const SampledMotion& sampled, const std::vector<Duration>& horizons,
+                                          const sweep_guard_core::PredictorOptions& options, const Progress& progress) {
+  const std::vector<StampedPose>& poses = sampled.poses;
+  sweep_guard_core::PosePredictor predictor(options);
   sweep_guard_core::PredictedPath path;
-  Comparison comparison(request.motion, request.horizons, request.samples.size());
-  auto sample = request.samples.begin();
+  std::vector<ErrorsAhead> errors(horizons.size());
+  auto sample = sampled.samples.begin();
   for (size_t i = 0; i < poses.size(); ++i) {
     predictor.observe(poses[i]);
-    if (sample != request.samples.end() && *sample == i) {
-      predictor.predict(request.horizons, path);
-      comparison.add(poses[i].stamp, path);
+    if (sample != sampled.samples.end() && *sample == i) {
+      predictor.predict(horizons, path);
+      addErrors(sampled.motion, horizons, poses[i].stamp, path, errors);
       ++sample;
     }
     if ((i + 1) % kProgressStep == 0) progress(kProgressStep);
   }
   progress(poses.size() % kProgressStep);
-  return std::move(comparison).errors();
+  return errors;
 }
 
 std::vector<std::vector<ErrorSummary>> summaries(const std::vector<std::vector<ErrorsAhead>>& errors) {

@@ -21,17 +21,19 @@ struct ErrorsAhead {
   std::vector<float> rotation;  ///< angle [rad], in [0, pi]
 };
 
-struct PredictionErrorRequest {
+/// A motion and the poses at which predictions are compared with it.
+struct SampledMotion {
   const std::vector<sweep_guard_core::StampedPose>& poses;
-  const RecordedMotion& motion;                             ///< of the poses
-  const std::vector<size_t>& samples;                       ///< indices of poses, ascending
-  const std::vector<sweep_guard_core::Duration>& horizons;  ///< ascending, > 0; within the motion at every sample
-  sweep_guard_core::PredictorOptions predictor;
+  RecordedMotion motion;        ///< of the poses
+  std::vector<size_t> samples;  ///< indices of poses, ascending
 };
 
 /// Passes every pose to a predictor and compares its prediction at each sample with the motion.
+/// @param horizons  ascending, > 0; within the motion at every sample
 /// @return one for each horizon
-std::vector<ErrorsAhead> predictionErrors(const PredictionErrorRequest& request, const Progress& progress);
+std::vector<ErrorsAhead> predictionErrors(const SampledMotion& sampled,
+                                          const std::vector<sweep_guard_core::Duration>& horizons,
+                                          const sweep_guard_core::PredictorOptions& options, const Progress& progress);
 
 /// Median and 95th percentile; NaN without samples.
 struct ErrorSummary {

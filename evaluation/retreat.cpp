@@ -1,11 +1,13 @@
 #include "evaluation/retreat.h"
 
 #include <algorithm>
+#include <array>
 
 #include "sweep_guard/motion/separating_plane.h"
 
 namespace sweep_guard_evaluation {
 
+using sweep_guard_core::PointHull;
 using sweep_guard_core::toSeconds;
 using sweep_guard_core::Twist;
 
@@ -18,11 +20,6 @@ constexpr double kMinRetreatSpeed = 0.02;  // [m/s] of a random retreat
 constexpr double kMinTurnRate = 0.1;       // [rad/s]
 constexpr double kShareOfMax = 0.6;        // of the robot's speed, at most
 
-struct Point {
-  Eigen::Vector3d p;
-  Eigen::Vector3d supportPoint(const Eigen::Vector3d& /*direction*/) const { return p; }
-};
-
 bool opens(const Twist& twist_W, const Eigen::Vector3d& normal, const Eigen::Vector3d& from_origin) {
   return normal.dot(twist_W.v_W + twist_W.w_W.cross(from_origin)) >= 0.0;
 }
@@ -33,12 +30,12 @@ double keptOf(const Eigen::Vector3d& output, const Eigen::Vector3d& command) {
 }
 
 // Speeds up from rest as the robot can; the ratio of translation and turn stays.
-std::vector<Twist> speedUpTo(const Twist& twist_W, const RobotLimits& limits) {
+std::vector<Twist> speedUpTo(const Twist& twist_W, const RobotOptions& robot) {
   std::vector<Twist> commands_W;
   for (size_t i = 1; i <= kCycles; ++i) {
     const double time = toSeconds(kCommandPeriod) * static_cast<double>(i);
-    const double share = std::min({1.0, limits.max_acceleration * time / std::max(1e-9, twist_W.v_W.norm()),
-                                   limits.max_turn_acceleration * time / std::max(1e-9, twist_W.w_W.norm())});
+    const double share = std::min({1.0, robot.max_acceleration * time / std::max(1e-9, twist_W.v_W.norm()),
+                                   robot.max_turn_acceleration * time / std::max(1e-9, twist_W.w_W.norm())});
     commands_W.push_back({share * twist_W.v_W, share * twist_W.w_W});
   }
   return commands_W;
@@ -68,11 +65,11 @@ Retreat runRetreat(RetreatKind kind, ClosedLoop loop, const std::vector<Twist>& 
   return retreat;
 }
 
-Twist randomTwist(RetreatKind kind, const RobotLimits& limits, Random& random) {
+Twist randomTwist(RetreatKind kind, const RobotOptions& robot, Random& random) {
   Twist twist_W;
-  twist_W.v_W = random.uniform(kMinRetreatSpeed, kShareOfMax * limits.max_speed) * random.direction();
+  twist_W.v_W = random.uniform(kMinRetreatSpeed, kShareOfMax * robot.max_speed) * random.direction();
   if (kind == RetreatKind::kTurn) {
-    twist_W.w_W = random.uniform(kMinTurnRate, limits.max_turn_rate) * random.direction();
+    twist_W.w_W = random.uniform(kMinTurnRate, robot.max_turn_rate) * random.direction();
   }
   return twist_W;
 }
@@ -86,27 +83,28 @@ bool opensEveryGap(const LoopScene& scene, const Eigen::Isometry3d& X_MT, const 
     if (!opens(twist_W, nearest.normal, nearest.on_tool - origin_M)) return false;
     for (const auto& ball : enclosingBalls(scene.tool().pieces()[i].shape_T)) {
       const Eigen::Vector3d center_M = X_MT * ball.center_T;
-      const auto apart = separation(Point{center_M}, sweep_guard_core::PointHull(scene.corners_M()));
+      const auto apart = separation(PointHull(std::array{center_M}), PointHull(scene.corners_M()));
       if (!opens(twist_W, apart.normal, center_M - origin_M)) return false;
     }
   }
   return true;
 }
 
-std::vector<Retreat> retreatFrom(const HeldTool& held, const RobotLimits& limits, size_t random_count, Random& random) {
-  const LoopScene& scene = held.loop.scene();
-  const Eigen::Isometry3d X_MT = held.loop.X_MT();
+std::vector<Retreat> retreatFrom(const ClosedLoop& held, const std::vector<Twist>& came_W, const RobotOptions& robot,
+                                 size_t random_count, Random& random) {
+  const LoopScene& scene = held.scene();
+  const Eigen::Isometry3d X_MT = held.X_MT();
   const double side = scene.separationAt(X_MT).normal.dot(scene.normal_M()) >= 0.0 ? 1.0 : -1.0;
   const Twist away_W{side * kNormalSpeed * scene.normal_M(), Eigen::Vector3d::Zero()};
-  std::vector<Retreat> retreats = {runRetreat(RetreatKind::kNormal, held.loop, speedUpTo(away_W, limits)),
-                                   runRetreat(RetreatKind::kReverse, held.loop, reversed(held.came_W))};
+  std::vector<Retreat> retreats = {runRetreat(RetreatKind::kNormal, held, speedUpTo(away_W, robot)),
+                                   runRetreat(RetreatKind::kReverse, held, reversed(came_W))};
   for (const RetreatKind kind : {RetreatKind::kTranslate, RetreatKind::kTurn}) {
     for (size_t i = 0; i < random_count; ++i) {
-      Twist twist_W = randomTwist(kind, limits, random);
+      Twist twist_W = randomTwist(kind, robot, random);
       int tries = 0;
       while (tries++ < kTriesForTwist && !opensEveryGap(scene, X_MT, twist_W))
-        twist_W = randomTwist(kind, limits, random);
-      if (tries <= kTriesForTwist) retreats.push_back(runRetreat(kind, held.loop, speedUpTo(twist_W, limits)));
+        twist_W = randomTwist(kind, robot, random);
+      if (tries <= kTriesForTwist) retreats.push_back(runRetreat(kind, held, speedUpTo(twist_W, robot)));
     }
   }
   const auto none = [](const Retreat& retreat) { return retreat.commands == 0; };

@@ -28,12 +28,6 @@ struct Retreat {
   static constexpr double kFree = 0.01;  ///< [m]
 };
 
-/// A place where the guard held the tool.
-struct HeldTool {
-  ClosedLoop loop;                              ///< there
-  std::vector<sweep_guard_core::Twist> came_W;  ///< velocities of the robot at each command before, the newest last
-};
-
 /// Returns whether a velocity brings no piece of the tool closer to the surface: no nearest point of a piece and no ball
 /// that encloses it, each measured from the nearest point of the surface.
 bool opensEveryGap(const LoopScene& scene, const Eigen::Isometry3d& X_MT, const sweep_guard_core::Twist& twist_W);
@@ -42,6 +36,9 @@ bool opensEveryGap(const LoopScene& scene, const Eigen::Isometry3d& X_MT, const 
 /// random directions that open every gap, with and without a turn. A retreat begins at the speed 0, speeds up as the
 /// robot can and lasts 0.3 s, or, as it came, 0.5 s. It ends before a command that does not open every gap: beside the
 /// edge of a surface, its normal does not lead away from it. One that ends before its first command is left out.
-std::vector<Retreat> retreatFrom(const HeldTool& held, const RobotLimits& limits, size_t random_count, Random& random);
+/// @param held    where the guard held the tool
+/// @param came_W  velocities of the robot at each command before, the newest last
+std::vector<Retreat> retreatFrom(const ClosedLoop& held, const std::vector<sweep_guard_core::Twist>& came_W,
+                                 const RobotOptions& robot, size_t random_count, Random& random);
 
 }  // namespace sweep_guard_evaluation

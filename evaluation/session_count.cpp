@@ -63,7 +63,7 @@ void countAlarm(const ObjectSession& session, const TimeInterval& alarm, Session
   if (isJustified(session.touches, judged)) return;
   ++count.unjustified;
   count.unjustified_time += alarm.end - alarm.begin;
-  if (session.near_misses == NearMisses::kSkip) return;
+  if (!session.measures_near_misses) return;
   const double nearest = nearestDistance(session.motion, session.tool, session.object, judged.begin, judged.end);
   for (size_t i = 0; i < kNearMisses.size(); ++i) {
     if (nearest < kNearMisses[i]) ++count.near_misses[i];

@@ -41,9 +41,6 @@ struct SessionCount {
   SessionCount& operator+=(const SessionCount& other);
 };
 
-/// Whether to measure how near unjustified alarms were, which takes most of the time.
-enum class NearMisses { kCount, kSkip };
-
 /// What is known of the levels of the warnings about one object, and of the truth.
 struct ObjectSession {
   const RecordedMotion& motion;
@@ -51,7 +48,7 @@ struct ObjectSession {
   ObstacleMesh& object;
   const std::vector<TimeInterval>& touches;
   const sweep_guard_recording::LevelTrace& levels;
-  NearMisses near_misses = NearMisses::kCount;
+  bool measures_near_misses = true;  ///< how near unjustified alarms were, which takes most of the time
 };
 
 /// Counts contacts and alarms of one object. doc/warnings.md has the definitions.

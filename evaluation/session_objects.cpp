@@ -14,13 +14,6 @@ constexpr double kMinHalfSide = 0.05;  // [m]
 constexpr double kMaxHalfSide = 0.15;  // [m]
 constexpr double kWorkspace = 0.2;     // [m] from where the tool was
 
-Eigen::Vector3d randomDirection(Random& random) {
-  const double z = random.uniform(-1.0, 1.0);
-  const double angle = random.uniform(0.0, 2.0 * kPi);
-  const double radius = std::sqrt(1.0 - z * z);
-  return {radius * std::cos(angle), radius * std::sin(angle), z};
-}
-
 /// Returns where the tool was at a random time without a gap.
 Eigen::Vector3d randomPosition(const RecordedMotion& motion, Random& random) {
   Duration length{0};
@@ -36,8 +29,8 @@ Eigen::Vector3d randomPosition(const RecordedMotion& motion, Random& random) {
 Eigen::Isometry3d randomPose(const RecordedMotion& motion, Random& random) {
   Eigen::Isometry3d X_WS = Eigen::Isometry3d::Identity();
   const double distance = kWorkspace * std::cbrt(random.uniform(0.0, 1.0));
-  X_WS.translation() = randomPosition(motion, random) + distance * randomDirection(random);
-  X_WS.linear() = random.frameWithZ(randomDirection(random));
+  X_WS.translation() = randomPosition(motion, random) + distance * random.direction();
+  X_WS.linear() = random.frameWithZ(random.direction());
   return X_WS;
 }
 

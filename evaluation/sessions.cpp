@@ -57,7 +57,7 @@ void Sessions::run(size_t number, const Progress& progress) {
   }
 }
 
-void Sessions::count(size_t number, const WarningLimits& limits, NearMisses near_misses) {
+void Sessions::count(size_t number, const WarningLimits& limits, bool near_misses) {
   Part& part = parts_[number];
   for (size_t i = 0; i < part.objects.size(); ++i) {
     Object& object = part.objects[i];
@@ -101,7 +101,7 @@ std::vector<Sessions> runSessions(const std::vector<Recording>& recordings, cons
 }
 
 std::vector<RecordingSessions> countSessions(std::vector<Sessions>& sessions, const WarningLimits& limits,
-                                             NearMisses near_misses) {
+                                             bool near_misses) {
   forEachPart(sessions, [&](Sessions& one, size_t part) { one.count(part, limits, near_misses); });
   std::vector<RecordingSessions> counted;
   counted.reserve(sessions.size());
@@ -114,7 +114,7 @@ std::vector<TuningPoint> tuningCurve(std::vector<Sessions>& sessions, const Warn
   for (const auto& thresholds : tuningThresholds(limits.thresholds)) {
     WarningLimits changed = limits;
     changed.thresholds = thresholds;
-    points.push_back({thresholds, figuresOf(countSessions(sessions, changed, NearMisses::kSkip))});
+    points.push_back({thresholds, figuresOf(countSessions(sessions, changed, /*near_misses=*/false))});
   }
   return points;
 }

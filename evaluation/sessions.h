@@ -26,7 +26,7 @@ class Sessions {
   void run(size_t part, const Progress& progress);
 
   /// Counts the alarms of a part whose guard has run. One thread for each part.
-  void count(size_t part, const sweep_guard_core::WarningLimits& limits, NearMisses near_misses);
+  void count(size_t part, const sweep_guard_core::WarningLimits& limits, bool near_misses);
 
   /// Returns what became of the predictions for an interval, of all objects.
   std::vector<PredictionOutcome> outcomes(sweep_guard_core::Duration interval) const;
@@ -63,8 +63,7 @@ std::vector<Sessions> runSessions(const std::vector<sweep_guard_recording::Recor
 
 /// Counts the sessions of every recording, in parallel.
 std::vector<RecordingSessions> countSessions(std::vector<Sessions>& sessions,
-                                             const sweep_guard_core::WarningLimits& limits,
-                                             NearMisses near_misses = NearMisses::kCount);
+                                             const sweep_guard_core::WarningLimits& limits, bool near_misses = true);
 
 /// Returns what tuningThresholds() give in all sessions. Near misses are not counted.
 std::vector<TuningPoint> tuningCurve(std::vector<Sessions>& sessions, const sweep_guard_core::WarningLimits& limits);

@@ -25,25 +25,21 @@ struct Figure {
   double (*of)(const SessionFigures&);
 };
 
-const std::vector<Figure>& figureColumns() {
-  using F = const SessionFigures&;
-  static const std::vector<Figure> kFigures = {
-      {"warned_0.1", "warned 0.1 s", [](F f) { return f.warned(0); }},
-      {"warned_0.3", "warned 0.3 s", [](F f) { return f.warned(1); }},
-      {"warned_0.5", "warned 0.5 s", [](F f) { return f.warned(2); }},
-      {"warned_1.0", "warned 1.0 s", [](F f) { return f.warned(3); }},
-      {"unjustified_per_min", "unjustified/min", [](F f) { return f.unjustifiedPerMinute(); }},
-      {"precision", "precision", [](F f) { return f.precision(); }},
-      {"precision_10mm", "within 10 mm", [](F f) { return f.precisionWithin(0); }},
-      {"precision_20mm", "within 20 mm", [](F f) { return f.precisionWithin(1); }},
-      {"precision_50mm", "within 50 mm", [](F f) { return f.precisionWithin(2); }},
-      {"false_on_share", "false on-time", [](F f) { return f.falseOnShare(); }}};
-  return kFigures;
-}
+constexpr Figure kFigures[] = {
+    {"warned_0.1", "warned 0.1 s", [](const auto& f) { return f.warned(0); }},
+    {"warned_0.3", "warned 0.3 s", [](const auto& f) { return f.warned(1); }},
+    {"warned_0.5", "warned 0.5 s", [](const auto& f) { return f.warned(2); }},
+    {"warned_1.0", "warned 1.0 s", [](const auto& f) { return f.warned(3); }},
+    {"unjustified_per_min", "unjustified/min", [](const auto& f) { return f.unjustifiedPerMinute(); }},
+    {"precision", "precision", [](const auto& f) { return f.precision(); }},
+    {"precision_10mm", "within 10 mm", [](const auto& f) { return f.precisionWithin(0); }},
+    {"precision_20mm", "within 20 mm", [](const auto& f) { return f.precisionWithin(1); }},
+    {"precision_50mm", "within 50 mm", [](const auto& f) { return f.precisionWithin(2); }},
+    {"false_on_share", "false on-time", [](const auto& f) { return f.falseOnShare(); }}};
 
 std::vector<double> valuesOf(const SessionFigures& figures) {
   std::vector<double> values;
-  for (const Figure& figure : figureColumns()) values.push_back(figure.of(figures));
+  for (const Figure& figure : kFigures) values.push_back(figure.of(figures));
   return values;
 }
 
@@ -59,7 +55,7 @@ std::string tableRows(const std::string& recording, const std::vector<RecordingS
   std::string rows = fmt::format("{}: {:.1f} min, {} contacts, {} without REFLEX, {} alarms\n", recording,
                                  figures.minutes, figures.count.contacts, figures.count.late, figures.count.alarms);
   for (size_t i = 0; i < intervals.size(); ++i) {
-    const Figure& figure = figureColumns()[i];
+    const Figure& figure = kFigures[i];
     rows += fmt::format("  {:<16} {:6.3f}  [{:.3f}, {:.3f}]\n", figure.title, figure.of(figures), intervals[i].lower,
                         intervals[i].upper);
   }
@@ -108,7 +104,7 @@ std::vector<double> ratiosOf(const SessionFigures& now, const SessionFigures& be
 
 std::string sessionsCsv(const std::vector<RecordingSessions>& recordings) {
   std::vector<std::string> columns = {"recording", "minutes", "contacts"};
-  for (const Figure& figure : figureColumns()) columns.emplace_back(figure.column);
+  for (const Figure& figure : kFigures) columns.emplace_back(figure.column);
   std::string csv = csvLine(columns);
   for (const RecordingSessions& recording : recordings) csv += csvRow(recording.recording, figuresOf(recording));
   return csv + csvRow(kAll, figuresOf(recordings));

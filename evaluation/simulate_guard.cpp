@@ -74,7 +74,7 @@ class GuardSimulation {
         options_(options),
         guard_(sweep_guard_core::Tool(options.tool), sweep_guard_core::makeDetector("reference"),
                withoutTimeLimit(options.guard)),
-        episodes_(options.min_probabilities.size(), std::vector<Episode>(placements.size())) {}
+        levels_(options.min_probabilities.size(), std::vector<LevelTrace>(placements.size())) {}
 
   void addPose(const StampedPose& pose) {
     recordLevelsBefore(pose.stamp);
@@ -84,7 +84,7 @@ class GuardSimulation {
     newest_ = pose.stamp;
   }
 
-  std::vector<std::vector<Episode>> episodes() && { return std::move(episodes_); }
+  std::vector<std::vector<LevelTrace>> levels() && { return std::move(levels_); }
 
  private:
   void recordLevelsBefore(Time stamp) {
@@ -130,9 +130,7 @@ class GuardSimulation {
   void end(Time stamp) {
     for (const ActivePlacement& placement : active_) {
       if (placement.end() > stamp) continue;
-      for (size_t i = 0; i < episodes_.size(); ++i) {
-        episodes_[i][placement.index()] = {placements_[placement.index()], placement.traces()[i]};
-      }
+      for (size_t i = 0; i < levels_.size(); ++i) levels_[i][placement.index()] = placement.traces()[i];
     }
     active_.remove_if([&](const ActivePlacement& placement) { return placement.end() <= stamp; });
   }
@@ -143,17 +141,17 @@ class GuardSimulation {
   Time newest_;
   size_t next_ = 0;  // placement
   std::list<ActivePlacement> active_;
-  std::vector<std::vector<Episode>> episodes_;
+  std::vector<std::vector<LevelTrace>> levels_;
 };
 
 }  // namespace
 
-std::vector<std::vector<Episode>> simulateGuard(const std::vector<StampedPose>& poses,
-                                                const std::vector<ObstaclePlacement>& placements,
-                                                const GuardSimulationOptions& options, const Progress& progress) {
+std::vector<std::vector<LevelTrace>> simulateGuard(const std::vector<StampedPose>& poses,
+                                                   const std::vector<ObstaclePlacement>& placements,
+                                                   const GuardSimulationOptions& options, const Progress& progress) {
   GuardSimulation simulation(placements, options);
   addPoses(poses, progress, [&](const StampedPose& pose) { simulation.addPose(pose); });
-  return std::move(simulation).episodes();
+  return std::move(simulation).levels();
 }
 
 }  // namespace sweep_guard_evaluation

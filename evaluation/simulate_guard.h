@@ -2,8 +2,9 @@
 
 #include <vector>
 
-#include "evaluation/alarm_statistics.h"
-#include "evaluation/prediction_errors.h"
+#include "evaluation/obstacle_placement.h"
+#include "evaluation/progress.h"
+#include "recording/level_trace.h"
 #include "sweep_guard/guard/guard.h"
 #include "sweep_guard/monitor/warning.h"
 
@@ -26,9 +27,9 @@ struct GuardSimulationOptions {
 ///
 /// @param poses       stamps do not decrease; poses with equal stamps all reach the guard
 /// @param placements  ordered by begin
-/// @return by threshold, then by placement
-std::vector<std::vector<Episode>> simulateGuard(const std::vector<sweep_guard_core::StampedPose>& poses,
-                                                const std::vector<ObstaclePlacement>& placements,
-                                                const GuardSimulationOptions& options, const Progress& progress);
+/// @return levels of the warning up to the first pose at or after the end of the placement: by threshold, then by placement
+std::vector<std::vector<sweep_guard_recording::LevelTrace>> simulateGuard(
+    const std::vector<sweep_guard_core::StampedPose>& poses, const std::vector<ObstaclePlacement>& placements,
+    const GuardSimulationOptions& options, const Progress& progress);
 
 }  // namespace sweep_guard_evaluation

@@ -7,6 +7,7 @@
 
 namespace sweep_guard_evaluation {
 
+using sweep_guard_core::Duration;
 using sweep_guard_core::limited;
 using sweep_guard_core::toSeconds;
 using sweep_guard_core::Twist;
@@ -17,23 +18,23 @@ Eigen::Vector3d clipped(const Eigen::Vector3d& wanted, const Eigen::Vector3d& la
   return limited(last + limited(limited(wanted, fastest) - last, step), fastest);
 }
 
-double gainOf(const RobotDelays& delays) {
-  if (delays.lag.count() == 0) return 1.0;
-  return 1.0 - std::exp(-toSeconds(SimulatedRobot::kStep) / toSeconds(delays.lag));
+double gainOf(Duration lag) {
+  if (lag.count() == 0) return 1.0;
+  return 1.0 - std::exp(-toSeconds(SimulatedRobot::kStep) / toSeconds(lag));
 }
 
 }  // namespace
 
-Twist clipped(const Twist& wanted_W, const Twist& last_W, const RobotLimits& limits, double period) {
-  return {clipped(wanted_W.v_W, last_W.v_W, limits.max_speed, limits.max_acceleration * period),
-          clipped(wanted_W.w_W, last_W.w_W, limits.max_turn_rate, limits.max_turn_acceleration * period)};
+Twist clipped(const Twist& wanted_W, const Twist& last_W, const RobotOptions& options, double period) {
+  return {clipped(wanted_W.v_W, last_W.v_W, options.max_speed, options.max_acceleration * period),
+          clipped(wanted_W.w_W, last_W.w_W, options.max_turn_rate, options.max_turn_acceleration * period)};
 }
 
-SimulatedRobot::SimulatedRobot(const Eigen::Isometry3d& X_WT, const RobotDelays& delays)
+SimulatedRobot::SimulatedRobot(const Eigen::Isometry3d& X_WT, const RobotOptions& options)
     : p_WT_(X_WT.translation()),
       q_WT_(X_WT.linear()),
-      gain_(gainOf(delays)),
-      delayed_W_(static_cast<size_t>(delays.dead_time / kStep)) {}
+      gain_(gainOf(options.lag)),
+      delayed_W_(static_cast<size_t>(options.dead_time / kStep)) {}
 
 void SimulatedRobot::step() {
   Twist arriving_W = sent_W_;

@@ -22,16 +22,11 @@ std::string tableLine(const AlarmRule& rule, const AlarmStatistics& statistics) 
   std::string line =
       fmt::format("{:<10} {:4} of {:<4} {:6.2f} {:6.2f}", rule.interval, statistics.leads.size(), statistics.contacts,
                   quantile(statistics.leads, 0.5), quantile(statistics.leads, 0.05));
-  for (const double lead : comparedLeads()) line += fmt::format("  {:5.1f} %", 100.0 * statistics.warnedAhead(lead));
+  for (const double lead : kComparedLeads) line += fmt::format("  {:5.1f} %", 100.0 * statistics.warnedAhead(lead));
   return line + fmt::format("  {:8.2f}\n", statistics.falseAlarmsPerMinute());
 }
 
 }  // namespace
-
-const std::vector<double>& comparedLeads() {
-  static const std::vector<double> kLeads = {0.1, 0.5, 1.0};
-  return kLeads;
-}
 
 std::string warningCsv(const std::vector<WarningReport>& reports) {
   std::string csv = csvLine({"recording", "predictor", "interval", "contacts", "warned", "lead_median_s", "lead_p5_s",
@@ -105,7 +100,7 @@ std::string tradeoffCsv(const std::vector<WarningReport>& reports) {
         std::vector<std::string> fields = {report.recording, report.predictors[predictor],
                                            csvNumber(report.min_probabilities[threshold]),
                                            csvNumber(statistics.falseAlarmsPerMinute())};
-        for (const double lead : comparedLeads()) fields.push_back(csvNumber(statistics.warnedAhead(lead)));
+        for (const double lead : kComparedLeads) fields.push_back(csvNumber(statistics.warnedAhead(lead)));
         fields.emplace_back(threshold == report.chosen ? "1" : "0");
         csv += csvLine(fields);
       }
@@ -121,7 +116,7 @@ std::string tradeoffTable(const WarningReport& report, double max_false_alarms) 
       report.recording, max_false_alarms);
   for (size_t predictor = 0; predictor < report.predictors.size(); ++predictor) {
     table += fmt::format("  {:<26}", report.predictors[predictor]);
-    for (const double lead : comparedLeads()) {
+    for (const double lead : kComparedLeads) {
       table += fmt::format("  {:.3f}", meanShareWarned(report, predictor, lead, max_false_alarms));
     }
     table += '\n';

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,7 @@ struct WarningReport {
   }
 };
 
-/// Returns the leads at which warnings are compared [s].
-const std::vector<double>& comparedLeads();
+constexpr std::array<double, 3> kComparedLeads = {0.1, 0.5, 1.0};  ///< leads at which warnings are compared [s]
 
 /// Returns a CSV file for the chosen threshold with the columns
 /// recording,predictor,interval,contacts,warned,lead_median_s,lead_p5_s,false_alarms_per_min.

@@ -23,6 +23,7 @@ METHODS = ['#000000'] + COLORS
 READS = {'memory read': {'color': '#808080', 'linestyle': ':', 'linewidth': 3},
          'memory read fetched ahead': {'color': '#b0b0b0', 'linestyle': ':', 'linewidth': 3}}
 HALF_CLASS = 10 ** (0.5 / 20)  # of a distribution with twenty classes per decade
+# Those of warning_level.h; a test compares them.
 LEVELS = {'UNKNOWN': '#8c8c8c', 'CLEAR': '#2eb05c', 'CONSIDERED': '#ffb000', 'REFLEX': '#de1a1a', 'CONTACT': '#de1a1a'}
 UNTOUCHED = -0.15  # on the scale of colors, where the touched triangles are from 0 to 1
 TOUCH_COLORS = ['#d6cdbc', '#d6cdbc', '#dadaeb', '#bcbddc', '#9e9ac8', '#807dba', '#6a51a3', '#4a1486']

@@ -14,7 +14,7 @@ struct SentSurface {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Triangle> triangles;
 
-  TriangleMesh mesh(SurfaceKind kind = SurfaceKind::kMayEnclose) const { return {vertices, triangles, kind}; }
+  TriangleMesh mesh(bool is_sheet = false) const { return {vertices, triangles, is_sheet}; }
 
   SentSurface& add(const SentSurface& other) {
     const auto first = static_cast<std::uint32_t>(vertices.size());

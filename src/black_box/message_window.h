@@ -37,21 +37,18 @@ class MessageWindow {
   /// large mesh is converted before vertices and poses follow.
   static constexpr Duration kLead = std::chrono::seconds(1);
 
-  struct Limits {
-    Duration length = std::chrono::seconds(30);  ///< above 0
-    std::size_t max_size = 512U << 20U;          ///< [bytes]
-  };
-
-  explicit MessageWindow(const Limits& limits) : limits_(limits) {}
+  /// @param length    of the window, above 0
+  /// @param max_size  [bytes]
+  MessageWindow(Duration length, std::size_t max_size) : max_length_(length), max_size_(max_size) {}
 
   /// @returns whether the message is kept; if not, all others are
   bool add(Message message) {
-    if (message.size > limits_.max_size) return false;
+    if (message.size > max_size_) return false;
     size_ += message.size;
     window_.push_back(std::move(message));
-    while (window_.front().received < window_.back().received - limits_.length) shift();
-    while (size_ > limits_.max_size && window_.size() > 1) shift();
-    while (size_ > limits_.max_size) forgetOldest();
+    while (window_.front().received < window_.back().received - max_length_) shift();
+    while (size_ > max_size_ && window_.size() > 1) shift();
+    while (size_ > max_size_) forgetOldest();
     return true;
   }
 
@@ -83,7 +80,7 @@ class MessageWindow {
   }
   /// Returns whether the size lets messages leave for one of this size, and a moment is in the older half of the window.
   bool isLeaving(Time time, std::size_t size) const {
-    return size_ + size > limits_.max_size && covers(time) && time - window_.front().received < length() / 2;
+    return size_ + size > max_size_ && covers(time) && time - window_.front().received < length() / 2;
   }
   Time newest() const { return window_.empty() ? Time() : window_.back().received; }  ///< when it was received; or 0
 
@@ -135,7 +132,8 @@ class MessageWindow {
     before_.erase(oldest);
   }
 
-  const Limits limits_;
+  const Duration max_length_;
+  const std::size_t max_size_;
   std::deque<Message> window_;
   std::map<std::string, Message> before_;  // by key
   std::size_t size_ = 0;

@@ -56,16 +56,15 @@ std::optional<RecordingFile> parseRecordingFile(const std::string& name) {
   return file;
 }
 
-std::optional<std::vector<std::string>> recordingsToDelete(std::vector<StoredRecording> stored, std::uintmax_t quota,
+std::optional<std::vector<std::string>> recordingsToDelete(const RecordingSizes& stored, std::uintmax_t quota,
                                                            std::uintmax_t size) {
   if (size > quota) return std::nullopt;
-  std::sort(stored.begin(), stored.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
   std::uintmax_t taken = size;
-  for (const StoredRecording& recording : stored) taken += recording.size;
+  for (const auto& [name, bytes] : stored) taken += bytes;
   std::vector<std::string> names;
   for (auto oldest = stored.begin(); taken > quota; ++oldest) {
-    taken -= oldest->size;
-    names.push_back(oldest->name);
+    taken -= oldest->second;
+    names.push_back(oldest->first);
   }
   return names;
 }

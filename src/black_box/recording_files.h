@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,17 +30,13 @@ struct RecordingFile {
 /// Returns the parts of a file's name; empty if no file of a recording has such a name.
 std::optional<RecordingFile> parseRecordingFile(const std::string& name);
 
-/// A recording that is there and how large it is.
-struct StoredRecording {
-  std::string name;
-  std::uintmax_t size;  ///< of its files [bytes]
-};
+/// The sizes [bytes] of the recordings that are there, by name.
+using RecordingSizes = std::map<std::string, std::uintmax_t>;
 
 /// Returns the names of the recordings that are deleted before one of `size` bytes is written: the oldest, as few as suffice.
-/// @param stored  in any order
 /// @param quota   what all may take together [bytes]
 /// @return empty if the new one is larger than the quota by itself: then none helps
-std::optional<std::vector<std::string>> recordingsToDelete(std::vector<StoredRecording> stored, std::uintmax_t quota,
+std::optional<std::vector<std::string>> recordingsToDelete(const RecordingSizes& stored, std::uintmax_t quota,
                                                            std::uintmax_t size);
 
 }  // namespace sweep_guard_core

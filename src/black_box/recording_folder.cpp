@@ -10,6 +10,8 @@
 #include <map>
 #include <set>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "sweep_guard/common/error.h"
 
@@ -40,23 +42,17 @@ void giveName(const path& from, const path& to) {
   if (error) fail(to, error.message());
 }
 
-struct OwnFile {
-  RecordingFile name;
-  path file;
-  std::uintmax_t size;
-};
-
-std::vector<OwnFile> filesIn(const path& folder) {
-  std::vector<OwnFile> files;
+// Calls a function with the parts of its name, the path and the size [bytes] of each file of a recording.
+template <typename Function>
+void forEachFile(const path& folder, const Function& function) {
   std::error_code error;
   for (std::filesystem::directory_iterator next(folder, error), end; !error && next != end; next.increment(error)) {
     const auto name = parseRecordingFile(next->path().filename().string());
     std::error_code gone;
     if (!name || next->symlink_status(gone).type() != std::filesystem::file_type::regular) continue;
     const std::uintmax_t size = next->file_size(gone);
-    if (!gone) files.push_back({*name, next->path(), size});
+    if (!gone) function(*name, next->path(), size);
   }
-  return files;
 }
 
 }  // namespace
@@ -98,14 +94,15 @@ bool RecordingFolder::lock() {
 }
 
 void RecordingFolder::deleteLeftovers() const {
-  const std::vector<OwnFile> files = filesIn(options_.folder);
+  std::vector<std::pair<RecordingFile, path>> files;  // of one reading: a bag that another one missed would be deleted
   std::set<std::string> whole;
-  for (const OwnFile& file : files) {
-    if (!file.name.active && file.name.suffix == kBagSuffix) whole.insert(file.name.recording);
-  }
-  for (const OwnFile& file : files) {
+  forEachFile(options_.folder, [&](const RecordingFile& name, const path& file, std::uintmax_t /*size*/) {
+    files.emplace_back(name, file);
+    if (!name.active && name.suffix == kBagSuffix) whole.insert(name.recording);
+  });
+  for (const auto& [name, file] : files) {
     std::error_code ignored;
-    if (file.name.active || whole.count(file.name.recording) == 0) std::filesystem::remove(file.file, ignored);
+    if (name.active || whole.count(name.recording) == 0) std::filesystem::remove(file, ignored);
   }
 }
 
@@ -127,8 +124,8 @@ void RecordingFolder::check(std::uintmax_t size) {
   open();
   const std::vector<std::string> surplus = surplusFor(size);
   std::uintmax_t free = options_.free_space(options_.folder);
-  for (const StoredRecording& recording : stored()) {
-    if (std::find(surplus.begin(), surplus.end(), recording.name) != surplus.end()) free += recording.size;
+  for (const auto& [name, bytes] : stored()) {
+    if (std::find(surplus.begin(), surplus.end(), name) != surplus.end()) free += bytes;
   }
   if (free >= options_.min_free && free - options_.min_free >= size) return;
   fail(options_.folder, "only " + std::to_string(free / kMebibyte) + " MiB are free, and a recording of " +
@@ -176,15 +173,12 @@ RecordingFolder::Paths RecordingFolder::write(const std::string& name, std::uint
   return whole;
 }
 
-std::vector<StoredRecording> RecordingFolder::stored() const {
-  std::map<std::string, std::uintmax_t> sizes;
-  for (const OwnFile& file : filesIn(options_.folder)) {
-    if (!file.name.active) sizes[file.name.recording] += file.size;
-  }
-  std::vector<StoredRecording> stored;
-  stored.reserve(sizes.size());
-  for (const auto& [name, size] : sizes) stored.push_back({name, size});
-  return stored;
+RecordingSizes RecordingFolder::stored() const {
+  RecordingSizes sizes;
+  forEachFile(options_.folder, [&](const RecordingFile& name, const path& /*file*/, std::uintmax_t size) {
+    if (!name.active) sizes[name.recording] += size;
+  });
+  return sizes;
 }
 
 }  // namespace sweep_guard_core

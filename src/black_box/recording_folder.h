@@ -49,7 +49,7 @@ class RecordingFolder {
   /// @return the paths of the files
   Paths write(const std::string& name, std::uintmax_t size, const std::function<void(const Paths&)>& write);
 
-  std::vector<StoredRecording> stored() const;  ///< recordings that are whole; empty if the folder cannot be read
+  RecordingSizes stored() const;  ///< recordings that are whole; empty if the folder cannot be read
 
  private:
   bool lock();

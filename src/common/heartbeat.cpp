@@ -17,9 +17,9 @@ void Heartbeat::end() {
   heartbeat_of_thread = nullptr;
 }
 
-Heartbeat::Reading Heartbeat::read() const {
+std::optional<std::uint64_t> Heartbeat::steps() const {
   const std::uint64_t count = count_.load(std::memory_order_acquire);
-  return {count / 2, count % 2 == 1};
+  return count % 2 == 1 ? std::optional(count / 2) : std::nullopt;
 }
 
 // No other thread writes.

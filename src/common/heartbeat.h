@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 
 namespace sweep_guard_core {
 
@@ -13,11 +14,8 @@ class Heartbeat {
   void begin();
   void end();
 
-  struct Reading {
-    std::uint64_t steps;  ///< since the construction
-    bool working;         ///< between begin() and end()
-  };
-  Reading read() const;
+  /// Returns the number of steps since the construction; empty while there is no work.
+  std::optional<std::uint64_t> steps() const;
 
  private:
   friend void beat();

@@ -72,6 +72,13 @@ std::string shortestText(double number) {
   return text.str();
 }
 
+std::string shortText(double number) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << number;
+  return text.str();
+}
+
 std::string inSeconds(Duration duration) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.2f s", toSeconds(duration));

@@ -19,6 +19,9 @@ std::optional<Number> parseNumber(std::string_view text);
 /// Returns the decimal number with the fewest digits that is read as the same number.
 std::string shortestText(double number);
 
+/// Returns the number with six digits at most, for people: as in "0.25" or "1e+227".
+std::string shortText(double number);
+
 /// Returns a duration with two decimals and its unit, as in "0.25 s".
 std::string inSeconds(Duration duration);
 

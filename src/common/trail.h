@@ -4,17 +4,14 @@
 #include <boost/circular_buffer.hpp>
 #include <cstddef>
 
-#include "sweep_guard/common/time.h"
+#include "sweep_guard/common/stamped_pose.h"
 
 namespace sweep_guard_core {
 
 /// Keeps the positions of the tool's tip of the last two seconds for drawing, about 50 per second.
 class Trail {
  public:
-  struct Point {
-    Time stamp;
-    Eigen::Vector3d p_W;  ///< [m]
-  };
+  using Point = StampedValue<Eigen::Vector3d>;  ///< [m], in W
 
   /// Adds a position; first forgets all others if its stamp is older than the newest one's.
   void add(Time stamp, const Eigen::Vector3d& p_W) {

@@ -5,8 +5,6 @@
 namespace sweep_guard_core {
 namespace {
 
-std::uint64_t allOf(const Cluster& cluster) { return ~std::uint64_t{0} >> (simd::kCluster - cluster.count); }
-
 template <typename Value>
 void fetch(const Value* from, size_t count = 1) {
   constexpr size_t kLine = 64;
@@ -34,7 +32,7 @@ bool Culler::leavesAny(const Submesh& submesh, const simd::Planes& planes) {
     for (const std::uint32_t block : cluster.blocks) {
       if (bits_.firstAsked(block)) classifyBlock(submesh, planes, block);
     }
-    any = (classified(submesh.mesh_M().order(), cluster).not_beyond & allOf(cluster)) != 0;
+    any = (classified(submesh.mesh_M().order(), cluster).not_beyond & cluster.all()) != 0;
   });
   return any;
 }
@@ -69,7 +67,7 @@ simd::TriangleBits Culler::classified(const MeshOrder& order, const Cluster& clu
 
 void Culler::cullCluster(const MeshOrder& order, const Cluster& cluster) {
   const simd::TriangleBits found = classified(order, cluster);
-  for (std::uint64_t left = found.not_beyond & allOf(cluster); left != 0; left &= left - 1) {
+  for (std::uint64_t left = found.not_beyond & cluster.all(); left != 0; left &= left - 1) {
     const auto i = static_cast<std::uint32_t>(__builtin_ctzll(left));
     const std::uint32_t place = cluster.first + i;
     remaining_.push_back(

@@ -23,15 +23,15 @@ Eigen::Vector4d clipPlane(const HalfSpace& clip_B, const Eigen::Vector3d& half_e
 
 }  // namespace
 
-SelectDetector::SelectDetector(const Options& options, ContextFactory make_context)
-    : options_(options), make_context_(std::move(make_context)) {
+SelectDetector::SelectDetector(const DetectorOptions& options, ContextFactory make_context, size_t hit_records)
+    : options_(options), make_context_(std::move(make_context)), hit_records_(hit_records) {
   assert(options_.triangles_per_name >= 1);
   makeSelection();
 }
 
 void SelectDetector::makeSelection() {
   gl_.reset();
-  gl_ = std::make_unique<GlSelect>(make_context_(), options_.hit_records);
+  gl_ = std::make_unique<GlSelect>(make_context_(), hit_records_);
 }
 
 void SelectDetector::find(const Submesh& submesh, const SweptVolume& swept_M, Detection& detection) {

@@ -18,14 +18,12 @@ namespace sweep_guard_core {
 class SelectDetector : public Detector {
  public:
   using ContextFactory = std::function<std::unique_ptr<OffscreenContext>()>;
-  struct Options {
-    bool cull = true;             ///< draw only triangles in doubt; false: draw all
-    int triangles_per_name = 64;  ///< in the first pass, >= 1
-    size_t hit_records = 256;     ///< initial size of the selection buffer; it grows
-  };
 
+  /// @param options       their gl_context does not count
+  /// @param make_context  called again after a failure
+  /// @param hit_records   initial size of the selection buffer; it grows
   /// @throws DeviceError if there is no context or it lacks a function
-  explicit SelectDetector(const Options& options, ContextFactory make_context = makeOsMesaContext);
+  SelectDetector(const DetectorOptions& options, ContextFactory make_context, size_t hit_records = 256);
 
  private:
   // Throws DeviceError if the selection fails twice, the second time in a new context.
@@ -37,8 +35,9 @@ class SelectDetector : public Detector {
   void select(const SweptVolume& inflated_M);
   void makeSelection();
 
-  Options options_;
-  ContextFactory make_context_;
+  const DetectorOptions options_;
+  const ContextFactory make_context_;
+  const size_t hit_records_;
   std::unique_ptr<GlSelect> gl_;
   Culler culler_;
   std::vector<RemainingTriangle> all_;

@@ -19,11 +19,6 @@ constexpr double kOffset = 1e-3;     // of the tool's bounding radius
 constexpr double kRounding = 2e-15;  // of the size
 constexpr double kMinGap = 1e-6;     // of the size; the direction of a smaller one has few exact digits
 
-struct TimedTouch {
-  double fraction;
-  Separation separation;
-};
-
 double diameter(const std::array<Eigen::Vector3d, 3>& p) {
   return std::sqrt(std::max({(p[1] - p[0]).squaredNorm(), (p[2] - p[1]).squaredNorm(), (p[0] - p[2]).squaredNorm()}));
 }
@@ -75,17 +70,18 @@ class ImpactFinder::Search {
     Found found;
     for (std::size_t i = 0; i < count(); ++i) {
       const Trajectory trajectory = trajectoryOf(i);
-      const std::optional<TimedTouch> touch = firstTouch(trajectory, finder_.sub_motions_[i].margin);
+      Gap at = {0.0, direction_ ? trajectory.gap(*direction_, 0.0) : -kInfinity, 0.0};
+      const std::optional<Separation> touch = firstTouch(trajectory, finder_.sub_motions_[i].margin, at);
       if (!touch) {
         found.separating_M = trajectory.inMesh(*direction_, 0.0);
         continue;
       }
-      const Eigen::Vector3d point_M = trajectory.base_M() + touch->separation.on_obstacle;
-      const bool overlaps = i == 0 && touch->fraction == 0.0 && touch->separation.gap <= 0.0;
+      const Eigen::Vector3d point_M = trajectory.base_M() + touch->on_obstacle;
+      const bool overlaps = i == 0 && at.fraction == 0.0 && touch->gap <= 0.0;
       if (overlaps) return {overlapAt(point_M, contact_normal_M)};
-      const double time = (static_cast<double>(i) + touch->fraction) / static_cast<double>(count());
-      const Eigen::Vector3d& normal = touch->separation.normal;
-      const Eigen::Vector3d normal_T = trajectory.tool(touch->fraction).R_MT.transpose() * normal;
+      const double time = (static_cast<double>(i) + at.fraction) / static_cast<double>(count());
+      const Eigen::Vector3d& normal = touch->normal;
+      const Eigen::Vector3d normal_T = trajectory.tool(at.fraction).R_MT.transpose() * normal;
       found.separating_M = finder_.sub_motions_[0].R_MT_start * normal_T;
       found.impact = Impact{time, point_M, normal, finder_.depthAtEnd(triangle_, normal)};
       return found;
@@ -102,8 +98,8 @@ class ImpactFinder::Search {
     return {shape_T_, finder_.sub_motions_[sub_motion], triangle_, i / all, (i + 1.0) / all};
   }
 
-  std::optional<TimedTouch> firstTouch(const Trajectory& trajectory, double margin) {
-    Gap at = {0.0, direction_ ? trajectory.gap(*direction_, 0.0) : -kInfinity, 0.0};
+  // Advances to the first fraction where the piece is not proven to be farther than the margin, or to the end: empty.
+  std::optional<Separation> firstTouch(const Trajectory& trajectory, double margin, Gap& at) {
     bool stuck = false;  // no known direction proves anything from here on
     while (true) {
       const bool try_known = !stuck && directions_ < kMaxKnown;
@@ -114,7 +110,7 @@ class ImpactFinder::Search {
         const bool close = near && at.gap > margin;
         if (const auto touch = close ? cornerTouchAt(trajectory, at) : std::nullopt) return touch;
         const Separation apart = separationAt(trajectory, at.fraction, margin);
-        if (overlapping(apart)) return TimedTouch{at.fraction, apart};
+        if (overlapping(apart)) return apart;
         if (apart.gap <= margin + tolerance_) {
           return touchAt(trajectory, at.fraction, exactSeparationAt(trajectory, at.fraction));
         }
@@ -133,7 +129,9 @@ class ImpactFinder::Search {
 
   // A corner of the triangle is mostly next to a face of the piece.
   Direction directionOf(const Eigen::Vector3d& normal, const PlacedCore& tool, bool may_turn) const {
-    return may_turn && features_.ofOneCorner() ? turning(shape_T_, tool.R_MT.transpose() * normal) : fixed(normal);
+    const auto is_first = [this](const Feature& feature) { return feature.corner == features_.front().corner; };
+    const bool of_one_corner = std::all_of(features_.begin(), features_.end(), is_first);
+    return may_turn && of_one_corner ? turning(shape_T_, tool.R_MT.transpose() * normal) : fixed(normal);
   }
 
   // Follows the guess from here on if its gap is larger.
@@ -146,13 +144,13 @@ class ImpactFinder::Search {
   }
 
   // If a corner is just as far from the tool as the gap along a direction, that is the direction of the closest points.
-  std::optional<TimedTouch> cornerTouchAt(const Trajectory& trajectory, const Gap& at) const {
+  std::optional<Separation> cornerTouchAt(const Trajectory& trajectory, const Gap& at) const {
     const double s = at.fraction;
     const Eigen::Vector3d direction = trajectory.inMesh(*direction_, s);
     const Eigen::Vector3d corner = PointHull(trajectory.corners(s)).supportPoint(direction);
     const Eigen::Vector3d on_tool = corner + (at.gap + shape_T_.padding() + kRounding * size_) * direction;
     if (shape_T_.depthOf(trajectory.tool(s).inTool(on_tool)).depth < shape_T_.padding()) return std::nullopt;
-    return TimedTouch{s, {direction, at.gap, on_tool, corner, {}}};
+    return Separation{direction, at.gap, on_tool, corner, {}};
   }
 
   bool overlapping(const Separation& apart) const {
@@ -168,8 +166,8 @@ class ImpactFinder::Search {
     const PlacedCore tool = trajectory.tool(s);
     const std::array<Eigen::Vector3d, 3> corners = trajectory.corners(s);
     Separation apart = roughSeparation(tool, PointHull(corners), margin + shape_T_.padding(), 0.25 * tolerance_,
-                                       initialDirection(tool), features_.at(tool, corners));
-    features_ = {apart.simplex, tool, corners};
+                                       initialDirection(tool), pointsOf(features_, tool, corners));
+    features_ = featuresOf(apart.simplex, tool, corners);
     apart.gap -= shape_T_.padding();
     return apart;
   }
@@ -177,24 +175,26 @@ class ImpactFinder::Search {
   Separation exactSeparationAt(const Trajectory& trajectory, double s) {
     const PlacedCore tool = trajectory.tool(s);
     const std::array<Eigen::Vector3d, 3> corners = trajectory.corners(s);
-    Separation apart = separation(tool, PointHull(corners), 0.0, initialDirection(tool), features_.at(tool, corners));
-    features_ = {apart.simplex, tool, corners};
+    Separation apart =
+        separation(tool, PointHull(corners), 0.0, initialDirection(tool), pointsOf(features_, tool, corners));
+    features_ = featuresOf(apart.simplex, tool, corners);
     apart.gap -= shape_T_.padding();
     return apart;
   }
 
   // The direction of a tiny distance has few exact digits. The tool is therefore moved away along it by a little: the
   // error of the direction shrinks by the ratio of this distance to the tool's radius of curvature.
-  TimedTouch touchAt(const Trajectory& trajectory, double s, Separation exact) {
+  Separation touchAt(const Trajectory& trajectory, double s, Separation exact) {
     const double distance = exact.gap + shape_T_.padding();
     const double offset = kOffset * (shape_T_.boundingRadius() > 0.0 ? shape_T_.boundingRadius() : size_);
     if (distance > 0.0 && distance < offset) {
       PlacedCore moved = trajectory.tool(s);
       moved.p_MT += offset * exact.normal;
       const std::array<Eigen::Vector3d, 3> corners = trajectory.corners(s);
-      exact.normal = separation(moved, PointHull(corners), 0.0, exact.normal, features_.at(moved, corners)).normal;
+      exact.normal =
+          separation(moved, PointHull(corners), 0.0, exact.normal, pointsOf(features_, moved, corners)).normal;
     }
-    return {s, exact};
+    return exact;
   }
 
   // Padding adds the same to the depth along any direction. If the piece without padding is apart from the triangle, the

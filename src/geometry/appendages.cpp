@@ -12,62 +12,60 @@ double area(const WeldedSurface& surface, std::uint32_t triangle) {
   return 0.5 * (surface.at(b) - surface.at(a)).cross(surface.at(c) - surface.at(a)).norm();
 }
 
-// Finds the patches that may be left out without a new border: those with triangles at an edge where the number of all is
-// odd and above 2, and that everywhere. Of several at such an edge the smallest one is left out.
-class Appendages {
- public:
-  Appendages(const WeldedSurface& surface, const Patches& patches)
-      : patches_(patches), areas_(patches.count()), hang_(patches.count()), stay_(patches.count()) {
-    for (std::uint32_t i = 0; i < surface.triangles.size(); ++i) {
-      if (!surface.left_out[i]) areas_[patches.of(i)] += area(surface, i);
-    }
-    for (const EdgeGroups::Group& group : patches.irregular()) {
-      std::vector<bool>& patches_there = group.size() % 2 == 0 ? stay_ : hang_;
-      if (group.size() > 1) forEachOddAt(group, [&](std::uint32_t patch) { patches_there[patch] = true; });
-    }
-    for (const EdgeGroups::Group& group : patches.irregular()) {
-      if (group.size() % 2 != 0 && group.size() > 1) keepAllButSmallest(group);
-    }
+std::vector<double> areasOf(const WeldedSurface& surface, const Patches& patches) {
+  std::vector<double> areas(patches.count());
+  for (std::uint32_t i = 0; i < surface.triangles.size(); ++i) {
+    if (!surface.left_out[i]) areas[patches.of(i)] += area(surface, i);
   }
+  return areas;
+}
 
-  bool contains(std::uint32_t patch) const { return mayGo(patch) && !waits_[patch]; }
+template <typename Function>
+void forEachOddAt(const EdgeGroups::Group& group, const Patches& patches, const Function& function) {
+  forEachPatchAt(group, patches, [&](std::uint32_t patch, int, std::ptrdiff_t count) {
+    if (count % 2 != 0) function(patch);
+  });
+}
 
- private:
-  bool mayGo(std::uint32_t patch) const { return hang_[patch] && !stay_[patch]; }
+bool isBranch(const EdgeGroups::Group& group) { return group.size() > 2 && group.size() % 2 != 0; }
 
-  template <typename Function>
-  void forEachOddAt(const EdgeGroups::Group& group, const Function& function) const {
-    forEachPatchAt(group, patches_, [&](std::uint32_t patch, int, std::ptrdiff_t count) {
-      if (count % 2 != 0) function(patch);
-    });
+// Returns of each patch whether it has an odd number of triangles at an edge where the number of all is odd and above 2, and
+// at no edge where it is even.
+std::vector<bool> hangingPatches(const Patches& patches) {
+  std::vector<bool> hang(patches.count());
+  std::vector<bool> stay(patches.count());
+  for (const EdgeGroups::Group& group : patches.irregular()) {
+    std::vector<bool>& patches_there = group.size() % 2 == 0 ? stay : hang;
+    if (group.size() > 1) forEachOddAt(group, patches, [&](std::uint32_t patch) { patches_there[patch] = true; });
   }
+  for (size_t i = 0; i < hang.size(); ++i) hang[i] = hang[i] && !stay[i];
+  return hang;
+}
 
-  void keepAllButSmallest(const EdgeGroups::Group& group) {
+// Returns of each patch whether it may be left out without a new border: of several at an edge the smallest one.
+std::vector<bool> appendages(const WeldedSurface& surface, const Patches& patches) {
+  const std::vector<double> areas = areasOf(surface, patches);
+  const std::vector<bool> hang = hangingPatches(patches);
+  std::vector<bool> found = hang;
+  for (const EdgeGroups::Group& group : patches.irregular()) {
+    if (!isBranch(group)) continue;
     std::optional<std::uint32_t> smallest;
-    forEachOddAt(group, [&](std::uint32_t patch) {
-      if (mayGo(patch) && (!smallest || areas_[patch] < areas_[*smallest])) smallest = patch;
+    forEachOddAt(group, patches, [&](std::uint32_t patch) {
+      if (hang[patch] && (!smallest || areas[patch] < areas[*smallest])) smallest = patch;
     });
-    forEachOddAt(group, [&](std::uint32_t patch) {
-      if (patch != smallest) waits_[patch] = true;
-    });
+    forEachOddAt(group, patches, [&](std::uint32_t patch) { found[patch] = found[patch] && patch == smallest; });
   }
-
-  const Patches& patches_;
-  std::vector<double> areas_;
-  std::vector<bool> hang_;
-  std::vector<bool> stay_;
-  std::vector<bool> waits_ = std::vector<bool>(patches_.count());
-};
+  return found;
+}
 
 }  // namespace
 
 bool leaveOutAppendages(WeldedSurface& surface, const Patches& patches) {
-  const auto hangs = [](const EdgeGroups::Group& group) { return group.size() > 2 && group.size() % 2 != 0; };
-  if (std::none_of(patches.irregular().begin(), patches.irregular().end(), hangs)) return false;
-  const Appendages appendages(surface, patches);
+  if (std::none_of(patches.irregular().begin(), patches.irregular().end(), isBranch)) return false;
+  const std::vector<bool> gone = appendages(surface, patches);
   bool any = false;
   for (std::uint32_t i = 0; i < surface.triangles.size(); ++i) {
-    if (surface.left_out[i] || !appendages.contains(patches.of(i))) continue;
+    if (surface.left_out[i] || !gone[patches.of(i)]) continue;
     surface.left_out[i] = true;
     any = true;
   }

@@ -50,8 +50,7 @@ bool ClosedParts::anyCrossOrLieInOthers() const {
     const bool turn = shells_[part].isInsideOut() != cavities_[part];
     for (const Triangle& triangle : triangles_[part]) triangles.push_back({turnedIf(turn, triangle), part});
   }
-  const auto position = [this](std::uint32_t vertex) { return surface_.at(vertex); };
-  if (partsCross(triangles, position, least_).value_or(true)) return true;
+  if (partsCross(triangles, surface_, least_).value_or(true)) return true;
   return std::any_of(closed_.begin(), closed_.end(),
                      [&](std::uint32_t inner) { return turnsAround(inner) != (cavities_[inner] ? 1 : 0); });
 }

@@ -97,19 +97,7 @@ size_t LinearFunctions::largest(const Eigen::Vector3d& p) const {
   return std::min(found, size_ - 1);
 }
 
-std::optional<ConvexShape::Cylinder> ConvexShape::asCylinder() const {
-  const Round* const round = std::get_if<Round>(&body_S_);
-  if (round == nullptr) return {};
-  return Cylinder{round->radius, round->length, placeOfBody()};
-}
-
-std::optional<ConvexShape::CenteredBox> ConvexShape::asBox() const {
-  const Box* const box = std::get_if<Box>(&body_S_);
-  if (box == nullptr) return {};
-  return CenteredBox{box->half_extents, placeOfBody()};
-}
-
-Eigen::Isometry3d ConvexShape::placeOfBody() const {
+Eigen::Isometry3d ConvexShape::X_TS() const {
   Eigen::Isometry3d X_TS = Eigen::Isometry3d::Identity();
   X_TS.linear() = R_TS_;
   X_TS.translation() = p_TS_;
@@ -118,21 +106,25 @@ Eigen::Isometry3d ConvexShape::placeOfBody() const {
 
 double ConvexShape::support(const Eigen::Vector3d& direction_T) const {
   const Eigen::Vector3d d = R_TS_.transpose() * direction_T;
-  const double of_body = std::visit(
-      Overloaded{
-          [&](const Round& round) { return round.radius * d.head<2>().norm() + round.length * std::max(0.0, -d.z()); },
-          [&](const Box& box) { return box.half_extents.dot(d.cwiseAbs()); },
-          [&](const Points& points) { return points.reach.value(points.reach.largest(d), d); }},
-      body_S_);
+  const double of_body =
+      std::visit(Overloaded{[&](const Cylinder& cylinder) {
+                              return cylinder.radius * d.head<2>().norm() + cylinder.length * std::max(0.0, -d.z());
+                            },
+                            [&](const Box& half_extents) { return half_extents.dot(d.cwiseAbs()); },
+                            [&](const Points& points) { return points.reach.value(points.reach.largest(d), d); }},
+                 body_S_);
   return direction_T.dot(p_TS_) + of_body + padding_;
 }
 
 Eigen::Vector3d ConvexShape::coreSupportPoint(const Eigen::Vector3d& direction_T) const {
   const Eigen::Vector3d d = R_TS_.transpose() * direction_T;
   const Eigen::Vector3d p_S = std::visit(
-      Overloaded{[&](const Round& round) { return discSupport(d.z() < 0.0 ? -round.length : 0.0, round.radius, d); },
-                 [&](const Box& box) -> Eigen::Vector3d { return box.half_extents.cwiseProduct(d.unaryExpr(&sign)); },
-                 [&](const Points& points) { return points.corners[points.reach.largest(d)]; }},
+      Overloaded{
+          [&](const Cylinder& cylinder) {
+            return discSupport(d.z() < 0.0 ? -cylinder.length : 0.0, cylinder.radius, d);
+          },
+          [&](const Box& half_extents) -> Eigen::Vector3d { return half_extents.cwiseProduct(d.unaryExpr(&sign)); },
+          [&](const Points& points) { return points.corners[points.reach.largest(d)]; }},
       body_S_);
   return p_TS_ + R_TS_ * p_S;
 }
@@ -144,7 +136,7 @@ Eigen::Vector3d ConvexShape::supportPoint(const Eigen::Vector3d& direction_T) co
 }
 
 Eigen::Vector3d ConvexShape::proposeNormal(const std::array<Eigen::Vector3d, 3>& corners_T) const {
-  if (!std::holds_alternative<Round>(body_S_)) {
+  if (asCylinder() == nullptr) {
     return -depthOf((corners_T[0] + corners_T[1] + corners_T[2]) / 3.0).outwards_T;
   }
   std::array<Eigen::Vector2d, 3> corners;
@@ -156,8 +148,8 @@ Eigen::Vector3d ConvexShape::proposeNormal(const std::array<Eigen::Vector3d, 3>&
 ConvexShape::Depth ConvexShape::depthOf(const Eigen::Vector3d& p_T) const {
   const Eigen::Vector3d p = R_TS_.transpose() * (p_T - p_TS_);
   const Depth of_body = std::visit(
-      Overloaded{[&](const Round& round) { return depthInCylinder(p, round.radius, round.length); },
-                 [&](const Box& box) { return depthInBox(p, box.half_extents); },
+      Overloaded{[&](const Cylinder& cylinder) { return depthInCylinder(p, cylinder.radius, cylinder.length); },
+                 [&](const Box& half_extents) { return depthInBox(p, half_extents); },
                  [&](const Points& points) {
                    return points.corners.size() <= 2 ? depthAtSegment(p, points.corners.front(), points.corners.back())
                                                      : depthInFaces(p, points.faces);
@@ -175,11 +167,11 @@ double ConvexShape::radiusAbout(const Eigen::Vector3d& axis_T) const {
     return most;
   };
   const double of_body =
-      std::visit(Overloaded{[&](const Round& round) {
-                              const double rear = away({0.0, 0.0, -round.length});
-                              return round.radius + std::max(away(Eigen::Vector3d::Zero()), rear);
+      std::visit(Overloaded{[&](const Cylinder& cylinder) {
+                              const double rear = away({0.0, 0.0, -cylinder.length});
+                              return cylinder.radius + std::max(away(Eigen::Vector3d::Zero()), rear);
                             },
-                            [&](const Box& box) { return farthest_of(boxCorners(box.half_extents)); },
+                            [&](const Box& half_extents) { return farthest_of(boxCorners(half_extents)); },
                             [&](const Points& points) { return farthest_of(points.corners); }},
                  body_S_);
   return of_body + padding_;
@@ -195,11 +187,12 @@ double ConvexShape::boundingRadiusOfBody() const {
   const auto rim = [&](double z, double radius) {
     return Eigen::Vector2d(origin_S.head<2>().norm() + radius, origin_S.z() - z).norm();
   };
-  return std::visit(
-      Overloaded{[&](const Round& round) { return std::max(rim(0.0, round.radius), rim(-round.length, round.radius)); },
-                 [&](const Box& box) { return farthest_of(boxCorners(box.half_extents)); },
-                 [&](const Points& points) { return farthest_of(points.corners); }},
-      body_S_);
+  return std::visit(Overloaded{[&](const Cylinder& cylinder) {
+                                 return std::max(rim(0.0, cylinder.radius), rim(-cylinder.length, cylinder.radius));
+                               },
+                               [&](const Box& half_extents) { return farthest_of(boxCorners(half_extents)); },
+                               [&](const Points& points) { return farthest_of(points.corners); }},
+                    body_S_);
 }
 
 Eigen::Vector3d ConvexShape::faceSupport(double z, const Eigen::Vector3d& direction_T) const {

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cmath>
 
 #include "common/xyz.h"
 #include "geometry/shape_surface.h"
@@ -83,7 +82,7 @@ ConvexShape ConvexShape::cylinder(double radius, double length, int sides) {
   if (radius == 0.0 && length == 0.0) throw InvalidInput("cylinder: radius and length are both 0; give it a size");
   if (sides < 3 || sides > 1000) throw InvalidInput("cylinder sides: must be 3 to 1000");
   const TriangleSurface surface = cylinderSurface(radius, length, sides);
-  return {Round{radius, length}, surface.vertices, surface.triangles};
+  return {Cylinder{radius, length}, surface.vertices, surface.triangles};
 }
 
 ConvexShape ConvexShape::sphere(double radius) {
@@ -99,7 +98,7 @@ ConvexShape ConvexShape::box(const Eigen::Vector3d& half_extents) {
   }
   if (half_extents.isZero(0.0)) throw InvalidInput("box size: all three are 0; give it a size");
   const TriangleSurface surface = boxSurface(half_extents);
-  return {Box{half_extents}, surface.vertices, surface.triangles};
+  return {half_extents, surface.vertices, surface.triangles};
 }
 
 ConvexShape ConvexShape::hull(const std::vector<Eigen::Vector3d>& points_T) {
@@ -130,10 +129,10 @@ ConvexShape ConvexShape::padded(double distance) const {
 }
 
 ConvexShape::Faces ConvexShape::faces() const {
-  if (const auto* round = std::get_if<Round>(&body_S_)) {
-    return {R_TS_, p_TS_, Eigen::Vector2d::Constant(round->radius), 0.0, -round->length, /*round=*/true};
+  if (const Cylinder* const cylinder = asCylinder()) {
+    return {R_TS_, p_TS_, Eigen::Vector2d::Constant(cylinder->radius), 0.0, -cylinder->length, /*round=*/true};
   }
-  if (std::holds_alternative<Box>(body_S_)) return facesOfBox(R_TS_);
+  if (asBox() != nullptr) return facesOfBox(R_TS_);
   return facesOfBox(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments_T_.covariance).eigenvectors());
 }
 

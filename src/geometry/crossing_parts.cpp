@@ -40,9 +40,8 @@ bool passesThrough(const Corners& edges, const Corners& face) {
 
 class CrossingSearch {
  public:
-  CrossingSearch(const std::vector<PartTriangle>& triangles,
-                 const std::function<Eigen::Vector3d(std::uint32_t vertex)>& position, double least)
-      : triangles_(triangles), position_(position) {
+  CrossingSearch(const std::vector<PartTriangle>& triangles, const WeldedSurface& surface, double least)
+      : triangles_(triangles), surface_(surface) {
     findShrunk(least);
   }
 
@@ -58,7 +57,7 @@ class CrossingSearch {
  private:
   Corners cornersOf(std::uint32_t i) const {
     const auto& [a, b, c] = triangles_[i].corners;
-    return {position_(a), position_(b), position_(c)};
+    return {surface_.at(a), surface_.at(b), surface_.at(c)};
   }
   // Moves the corners of each part into the solid, against the mean normal of its triangles there.
   void findShrunk(double least) {
@@ -133,16 +132,15 @@ class CrossingSearch {
   }
 
   const std::vector<PartTriangle>& triangles_;
-  const std::function<Eigen::Vector3d(std::uint32_t vertex)>& position_;
+  const WeldedSurface& surface_;
   std::vector<std::array<Eigen::Vector3f, 3>> shrunk_;  // by how much each corner is [m]
   size_t visits_ = 0;
 };
 
 }  // namespace
 
-std::optional<bool> partsCross(const std::vector<PartTriangle>& triangles,
-                               const std::function<Eigen::Vector3d(std::uint32_t vertex)>& position, double least) {
-  return CrossingSearch(triangles, position, least).run();
+std::optional<bool> partsCross(const std::vector<PartTriangle>& triangles, const WeldedSurface& surface, double least) {
+  return CrossingSearch(triangles, surface, least).run();
 }
 
 }  // namespace sweep_guard_core

@@ -2,10 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <vector>
 
+#include "geometry/welded_surface.h"
 #include "sweep_guard/geometry/mesh_order.h"
 
 namespace sweep_guard_core {
@@ -22,9 +22,8 @@ struct PartTriangle {
 ///
 /// Halves the box around all triangles until only one part is left in it, or few triangles.
 /// @param triangles  grouped by part, counter-clockwise seen from outside the solid
-/// @param position   of a vertex [m]
+/// @param surface    that has their vertices
 /// @param least      [m], > 0
-std::optional<bool> partsCross(const std::vector<PartTriangle>& triangles,
-                               const std::function<Eigen::Vector3d(std::uint32_t vertex)>& position, double least);
+std::optional<bool> partsCross(const std::vector<PartTriangle>& triangles, const WeldedSurface& surface, double least);
 
 }  // namespace sweep_guard_core

@@ -50,7 +50,7 @@ Enclosure::Enclosure(const std::vector<float>& positions, const std::vector<Tria
     patches = Patches(edges, surface.left_out);
   }
   const SurfaceParts parts(surface, patches);
-  const Borders borders = bordersOf(parts);
+  const std::vector<Border> borders = bordersOf(parts);
   const std::vector<Shell> shells = shellsOf(surface, parts, borders);
   const ClosedParts closed_parts(surface, parts, shells);
   parts_overlap_ = closed_parts.overlap();
@@ -65,10 +65,11 @@ Enclosure::Enclosure(const std::vector<float>& positions, const std::vector<Tria
     roles_[i] = !shell.closed ? Role::kOpen : turn ? Role::kReversed : Role::kOutward;
     if (shell.closed) closed_.push_back(turnedIf(turn, surface.triangles[i]));
   }
-  open_edges_ = borders.edges;
-  if (borders.all.size() > std::max(kMaxCaps, triangles.size() / 4)) return;
-  open_.reserve(triangles.size() - closed + borders.all.size());
-  appendOpen(surface, parts, shells, borders.all, open_, open_parts_);
+  const auto again = std::count_if(borders.begin(), borders.end(), [](const Border& border) { return border.again; });
+  open_edges_ = borders.size() - static_cast<size_t>(again);
+  if (borders.size() > std::max(kMaxCaps, triangles.size() / 4)) return;
+  open_.reserve(triangles.size() - closed + borders.size());
+  appendOpen(surface, parts, shells, borders, open_, open_parts_);
   open_.shrink_to_fit();
 }
 

@@ -30,14 +30,6 @@ double nearestFace(const ConvexHull& hull, const Eigen::Vector3d& p, const std::
   return nearest;
 }
 
-bool isBall(const ConvexShape& shape) {
-  const Eigen::Vector3d core = shape.coreSupportPoint(Eigen::Vector3d::UnitX());
-  const auto same = [&](const Eigen::Vector3d& axis) {
-    return shape.coreSupportPoint(axis) == core && shape.coreSupportPoint(-axis) == core;
-  };
-  return same(Eigen::Vector3d::UnitX()) && same(Eigen::Vector3d::UnitY()) && same(Eigen::Vector3d::UnitZ());
-}
-
 // The support functions of a ball, or of a disc, and of what they contain differ by no more than that of the nearest face.
 double lackOf(const ConvexShape& shape, const ConvexHull& hull) {
   const double rest = kLeastDistance + hull.hull_tolerance + shape.mesh_T().rounding();
@@ -45,11 +37,11 @@ double lackOf(const ConvexShape& shape, const ConvexHull& hull) {
     const double face = hull.solid ? nearestFace(hull, center, axis) : 0.0;
     return std::max(0.0, radius - std::min(radius, face));
   };
-  if (const auto cylinder = shape.asCylinder()) {
-    const Eigen::Vector3d middle = cylinder->X_TC * Eigen::Vector3d(0.0, 0.0, -0.5 * cylinder->length);
-    return shape.padding() + beyond(cylinder->radius, middle, cylinder->X_TC.linear().col(2)) + rest;
+  if (const auto* const cylinder = shape.asCylinder()) {
+    const Eigen::Vector3d middle = shape.X_TS() * Eigen::Vector3d(0.0, 0.0, -0.5 * cylinder->length);
+    return shape.padding() + beyond(cylinder->radius, middle, shape.X_TS().linear().col(2)) + rest;
   }
-  if (!shape.asBox() && isBall(shape))
+  if (shape.isBall())
     return beyond(shape.padding(), shape.coreSupportPoint(Eigen::Vector3d::UnitX()), std::nullopt) + rest;
   return shape.padding() + rest;
 }

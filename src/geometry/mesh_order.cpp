@@ -128,7 +128,7 @@ simd::ClusterCorners clusterCorners(const Cluster& cluster, const std::vector<Tr
       const std::uint32_t vertex = corners[cluster.first + i][k];
       const auto* const block = std::find(cluster.blocks.begin(), cluster.blocks.end(), vertex / simd::kBlock);
       const auto place = static_cast<size_t>(block - cluster.blocks.begin()) * simd::kBlock + vertex % simd::kBlock;
-      places.places[k][i] = static_cast<std::uint8_t>(place);
+      places[k][i] = static_cast<std::uint8_t>(place);
     }
   }
   return places;

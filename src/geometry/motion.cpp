@@ -116,10 +116,11 @@ Motion mergedMotion(const Path& path, size_t first, size_t last, double tool_rad
   return merged_M;
 }
 
-size_t endOfMergedMotion(const Path& path, size_t first, size_t last, double tool_radius, const MergeLimits& limits) {
+size_t endOfMergedMotion(const Path& path, size_t first, size_t last, double tool_radius, double max_deviation,
+                         double max_rotation) {
   const auto fits = [&](size_t end) {
     const Motion merged_M = mergedMotion(path, first, end, tool_radius);
-    return merged_M.deviation_bound <= limits.max_deviation && merged_M.angle() <= limits.max_rotation;
+    return merged_M.deviation_bound <= max_deviation && merged_M.angle() <= max_rotation;
   };
   size_t end = first + 1;
   size_t step = 1;

@@ -19,33 +19,30 @@ Eigen::Matrix3d covarianceOfBoth(const Moments& moments_T, const Motion& motion)
          half_step * half_step.transpose() + 0.25 * motion.mesh_translation * motion.mesh_translation.transpose();
 }
 
-struct Axis {
-  Eigen::Vector3d direction_M;
-  double lower;
-  double upper;
-  double halfExtent() const { return 0.5 * (upper - lower); }
-  double center() const { return 0.5 * (upper + lower); }
-};
-
 }  // namespace
 
 OrientedBox boundingBox(const ConvexShape& shape, const Motion& motion) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covarianceOfBoth(shape.moments_T(), motion));
   assert(solver.info() == Eigen::Success);
 
-  std::array<Axis, 3> axes;
+  const Eigen::Matrix3d& axes_M = solver.eigenvectors();
+  Eigen::Vector3d half_extents;
+  Eigen::Vector3d center;  // along the axes
   for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d direction = solver.eigenvectors().col(i);
-    axes[static_cast<size_t>(i)] = {direction, -support(shape, motion, -direction), support(shape, motion, direction)};
+    const double lower = -support(shape, motion, -axes_M.col(i));
+    const double upper = support(shape, motion, axes_M.col(i));
+    half_extents[i] = 0.5 * (upper - lower);
+    center[i] = 0.5 * (upper + lower);
   }
-  std::sort(axes.begin(), axes.end(), [](const Axis& a, const Axis& b) { return a.halfExtent() < b.halfExtent(); });
+  std::array<int, 3> order = {0, 1, 2};
+  std::sort(order.begin(), order.end(), [&](int i, int j) { return half_extents[i] < half_extents[j]; });
 
   OrientedBox box;
   for (int i = 0; i < 3; ++i) {
-    const Axis& axis = axes[static_cast<size_t>(i)];
-    box.X_MB.linear().col(i) = axis.direction_M;
-    box.X_MB.translation() += axis.center() * axis.direction_M;
-    box.half_extents[i] = std::max(0.0, axis.halfExtent());
+    const int axis = order[static_cast<size_t>(i)];
+    box.X_MB.linear().col(i) = axes_M.col(axis);
+    box.X_MB.translation() += center[axis] * axes_M.col(axis);
+    box.half_extents[i] = std::max(0.0, half_extents[axis]);
   }
   if (box.X_MB.linear().determinant() < 0.0) box.X_MB.linear().col(0) *= -1.0;
   return box;

@@ -17,7 +17,7 @@ namespace {
 // before.
 class Qhull {
  public:
-  Qhull() : messages_(std::fopen("/dev/null", "w")) {
+  Qhull() : messages_(std::fopen("/dev/null", "w"), &std::fclose) {
     if (!messages_) throw DeviceError("cannot open /dev/null for the messages of Qhull");
     qh_zero(&qh_, messages_.get());
   }
@@ -47,10 +47,6 @@ class Qhull {
   }
 
  private:
-  struct Close {
-    void operator()(FILE* file) const { std::fclose(file); }
-  };
-
   Facet cornersOf(const facetT& facet) {
     Facet corners;
     vertexT* vertex = nullptr;
@@ -60,7 +56,7 @@ class Qhull {
     return corners;
   }
 
-  std::unique_ptr<FILE, Close> messages_;
+  std::unique_ptr<FILE, int (*)(FILE*)> messages_;
   qhT qh_ = {};
 };
 

@@ -34,24 +34,23 @@ void SurfaceParts::uniteBordersAt(const EdgeGroups::Group& group) {
   });
 }
 
-Borders bordersOf(const SurfaceParts& parts) {
-  Borders borders;
+std::vector<Border> bordersOf(const SurfaceParts& parts) {
+  std::vector<Border> borders;
   for (const EdgeGroups::Group& group : parts.irregular()) {
     forEachPatchAt(group, parts, [&](std::uint32_t part, int sum, std::ptrdiff_t) {
-      if (sum != 0) ++borders.edges;
       const std::uint32_t high = group.first->high;
-      for (; sum > 0; --sum) borders.all.push_back({part, group.low, high});
-      for (; sum < 0; ++sum) borders.all.push_back({part, high, group.low});
+      for (int i = 0; i < sum; ++i) borders.push_back({part, group.low, high, i > 0});
+      for (int i = 0; i < -sum; ++i) borders.push_back({part, high, group.low, i > 0});
     });
   }
-  std::stable_sort(borders.all.begin(), borders.all.end(),
-                   [](const Border& a, const Border& b) { return a.part < b.part; });
+  std::stable_sort(borders.begin(), borders.end(), [](const Border& a, const Border& b) { return a.part < b.part; });
   return borders;
 }
 
-std::vector<Shell> shellsOf(const WeldedSurface& surface, const SurfaceParts& parts, const Borders& borders) {
+std::vector<Shell> shellsOf(const WeldedSurface& surface, const SurfaceParts& parts,
+                            const std::vector<Border>& borders) {
   std::vector<Shell> shells(parts.count());
-  for (const Border& border : borders.all) shells[border.part].closed = false;
+  for (const Border& border : borders) shells[border.part].closed = false;
   for (std::uint32_t i = 0; i < surface.triangles.size(); ++i) {
     if (surface.left_out[i]) continue;
     Shell& shell = shells[parts.of(i)];

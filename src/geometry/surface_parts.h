@@ -38,14 +38,11 @@ struct Border {
   std::uint32_t part;
   std::uint32_t from;
   std::uint32_t to;
+  bool again;  ///< as before: directions clash at this edge
 };
 
-struct Borders {
-  std::vector<Border> all;  ///< by part; several times where directions clash
-  size_t edges = 0;
-};
-
-Borders bordersOf(const SurfaceParts& parts);
+/// Returns the borders, by part.
+std::vector<Border> bordersOf(const SurfaceParts& parts);
 
 /// Sums over the triangles of a part.
 struct Shell {
@@ -63,6 +60,7 @@ struct Shell {
   bool isSentInsideOut() const { return (turned == 0) == isInsideOut(); }
 };
 
-std::vector<Shell> shellsOf(const WeldedSurface& surface, const SurfaceParts& parts, const Borders& borders);
+std::vector<Shell> shellsOf(const WeldedSurface& surface, const SurfaceParts& parts,
+                            const std::vector<Border>& borders);
 
 }  // namespace sweep_guard_core

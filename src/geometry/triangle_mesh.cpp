@@ -54,7 +54,7 @@ double halfStep(double coordinate) {
 double float32Rounding(const Eigen::Vector3d& largest) { return largest.unaryExpr(&halfStep).norm(); }
 
 TriangleMesh::TriangleMesh(const std::vector<Eigen::Vector3d>& vertices_M, std::vector<Triangle> triangles,
-                           SurfaceKind surface, double rounded) {
+                           bool is_sheet, double rounded) {
   checkTriangles(triangles, vertices_M.size());
   for (size_t i = 0; i < vertices_M.size(); ++i) {
     for (const double coordinate : xyz(vertices_M[i])) {
@@ -69,11 +69,11 @@ TriangleMesh::TriangleMesh(const std::vector<Eigen::Vector3d>& vertices_M, std::
     sent.insert(sent.end(), kept.data(), kept.data() + 3);
     rounding_ = std::max(rounding_, (p - (origin_ + kept.cast<double>())).norm());
   }
-  Enclosure enclosure = surface == SurfaceKind::kSheet ? Enclosure() : Enclosure(sent, triangles);
+  Enclosure enclosure = is_sheet ? Enclosure() : Enclosure(sent, triangles);
   MeshOrder order = orderOf(sent, triangles);
   rounding_ += rounded;
-  topology_ =
-      std::make_shared<const Topology>(Topology{std::move(triangles), surface, std::move(enclosure), std::move(order)});
+  topology_ = std::make_shared<const Topology>(
+      Topology{std::move(triangles), is_sheet, std::move(enclosure), std::move(order)});
   exchange(sent);
 }
 

@@ -26,7 +26,7 @@ void BodyPrediction::begin(const BodyPredictionRequest& request, Prediction& pre
   prediction.sweeps_made = request.plan.sweepCount(motion.path);
   prediction.unplaced.clear();
   prediction.failures.clear();
-  X_WB_ = motion.from.body(request.body).X_WB;
+  X_WB_ = motion.from.bodies[request.body].X_WB;
   next_ = tested_ = 0;
   checker_.giveUp();
   checker_.forgetPath();
@@ -107,7 +107,7 @@ Prediction predictContacts(Detector& detector, const std::vector<Tool>& bodies, 
   const SweepPlan plan{{}, out_of_time};
   size_t first_piece = 0;
   for (size_t i = 0; i < bodies.size(); ++i) {
-    BodyPrediction body(PathChecker::optionsOf(options));
+    BodyPrediction body(options);
     Prediction prediction;
     body.begin({bodies[i], motion, workpieces, plan, i, &options.allowed, nullptr, nullptr,
                 bodies.size() > 1 ? &closest : nullptr},

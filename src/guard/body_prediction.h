@@ -30,7 +30,8 @@ struct BodyPredictionRequest {
 /// reported, and the others are tested. Consecutive workpieces in one place share the sweeps of the body. Keeps its buffers.
 class BodyPrediction {
  public:
-  explicit BodyPrediction(const PathChecker::Options& options) : checker_(options) {}
+  explicit BodyPrediction(const GuardOptions& options)
+      : checker_(options.sweep, options.horizon.reflex_step / 2, options.max_deviations) {}
 
   /// Begins a test in place of the one before.
   /// @param[out] prediction  overwritten; must outlive the test; its buffers are used again
@@ -52,7 +53,7 @@ class BodyPrediction {
   Prediction* prediction_ = nullptr;
   Eigen::Isometry3d X_WB_ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d X_WM_ = Eigen::Isometry3d::Identity();  // of the workpiece under test, in a frame that rests
-  std::optional<FramePath> frame_;                          // the same, of one that moves on its own
+  std::optional<PredictedPath> frame_;                      // the same, of one that moves on its own
   size_t next_ = 0;                                         // workpiece
   size_t tested_ = 0;                                       // objects of the prediction
 };

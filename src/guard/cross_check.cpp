@@ -15,22 +15,6 @@ namespace {
 constexpr std::uint64_t kReferencePeriod = 10;  // [queries]
 constexpr size_t kMaxNamed = 20;                // [triangles]
 
-class SampledDetector : public Detector {
- public:
-  SampledDetector(std::unique_ptr<Detector> detector, const std::string& name, QuerySampler& sampler)
-      : detector_(std::move(detector)), name_(name), sampler_(sampler) {}
-
- private:
-  void find(const Submesh& submesh, const SweptVolume& swept_M, Detection& detection) override {
-    detection = detector_->detect(submesh, swept_M);
-    sampler_.offer(name_, submesh, swept_M, detection);
-  }
-
-  const std::unique_ptr<Detector> detector_;
-  const std::string name_;
-  QuerySampler& sampler_;
-};
-
 TriangleSet difference(const TriangleSet& a, const TriangleSet& b) {
   TriangleSet only_in_a;
   std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(only_in_a));
@@ -142,7 +126,10 @@ void QuerySampler::stop() {
 }
 
 std::unique_ptr<Detector> sampled(std::unique_ptr<Detector> detector, const std::string& name, QuerySampler& sampler) {
-  return std::make_unique<SampledDetector>(std::move(detector), name, sampler);
+  detector->reportTo([name, &sampler](const Submesh& submesh, const SweptVolume& swept_M, const Detection& found) {
+    sampler.offer(name, submesh, swept_M, found);
+  });
+  return detector;
 }
 
 Disagreement crossCheck(const SampledQuery& query, Detector& other) {
@@ -181,11 +168,8 @@ TriangleSet testedTriangles(const SampledQuery& query) {
 }
 
 std::string otherDetector(const std::string& name, std::uint64_t number) {
-  const std::vector<std::string>& names = detectorNames();
-  const std::string& reference = names.back();
-  if (number % kReferencePeriod == 0 && name != reference) return reference;
-  const auto quick = std::find_if(names.rbegin() + 1, names.rend(), [&](const auto& other) { return other != name; });
-  return *quick;
+  if (number % kReferencePeriod == 0 && name != "reference") return "reference";
+  return name == "halfspace" ? "select" : "halfspace";
 }
 
 }  // namespace sweep_guard_core

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "sweep_guard/common/mutex.h"
+#include "common/guarded_by.h"
 #include "sweep_guard/common/stamped_pose.h"
 #include "sweep_guard/detection/detector.h"
 #include "sweep_guard/guard/workpiece.h"
@@ -71,7 +71,7 @@ class QuerySampler {
   bool stopping_ GUARDED_BY(mutex_) = false;
 };
 
-/// Returns a detector that asks another one, by this name, and offers each answer to a sampler, which must outlive it.
+/// Returns the detector, which offers each of its answers to a sampler from now on, under this name. The sampler must outlive it.
 std::unique_ptr<Detector> sampled(std::unique_ptr<Detector> detector, const std::string& name, QuerySampler& sampler);
 
 /// Triangles that detectors disagree about by more than their inflations: ascending.
@@ -93,8 +93,8 @@ std::string describe(const SampledQuery& query, const Disagreement& disagreement
 /// Returns the triangles that the detector was asked about: ascending.
 TriangleSet testedTriangles(const SampledQuery& query);
 
-/// Returns the name of the detector that answers a query again: the last of detectorNames() but one, and for that the one
-/// before. They share code, so every tenth query is for the last one, which shares none.
+/// Returns the name of the detector that answers a query again: `halfspace`, and for that `select`. They share code, so
+/// every tenth query is for `reference`, which shares none.
 /// @param number  of the query: 1, 2, ...
 std::string otherDetector(const std::string& name, std::uint64_t number);
 

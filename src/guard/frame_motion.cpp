@@ -173,11 +173,13 @@ std::optional<PredictedPose> FrameMotion::at(Time time) const {
 
 Vector6d FrameMotion::velocity() const { return velocityAt(measured.size() - 1, measured); }
 
-std::optional<FramePath> framePath(const FrameMotion& motion, Time begin, const PredictedPath& path, double radius) {
+std::optional<PredictedPath> framePath(const FrameMotion& motion, Time begin, const PredictedPath& path,
+                                       double radius) {
   const std::vector<FrameKnot> knots = knotsOf(motion, radius);
   std::optional<FrameKnot> from = knotAt(motion, knots, begin);
   if (!from) return std::nullopt;
-  FramePath frame{{{from->X_WM, from->covariance, 0.0}}};
+  PredictedPath frame;
+  frame.push_back({Duration::zero(), from->X_WM, from->covariance});
   for (const PredictedPose& pose : path) {
     const auto to = knotAt(motion, knots, begin + pose.ahead);
     if (!to) return std::nullopt;
@@ -186,7 +188,7 @@ std::optional<FramePath> framePath(const FrameMotion& motion, Time begin, const 
       if (from->time < knot.time && knot.time < to->time) between.push_back(knot);
     }
     between.push_back(*to);
-    frame.points.push_back({to->X_WM, to->covariance, deviationBound(between, radius)});
+    frame.push_back({pose.ahead, to->X_WM, to->covariance, deviationBound(between, radius)});
     from = to;
   }
   return frame;

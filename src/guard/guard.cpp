@@ -20,8 +20,7 @@ namespace {
 
 std::vector<std::unique_ptr<GuardedBody>> guarded(std::vector<Tool> bodies, const GuardOptions& options) {
   std::vector<std::unique_ptr<GuardedBody>> all;
-  for (Tool& body : bodies)
-    all.push_back(std::make_unique<GuardedBody>(std::move(body), PathChecker::optionsOf(options)));
+  for (Tool& body : bodies) all.push_back(std::make_unique<GuardedBody>(std::move(body), options));
   return all;
 }
 
@@ -49,32 +48,22 @@ Guard::~Guard() = default;
 
 const Tool& Guard::tool(size_t body) const { return bodies_[body]->tool; }
 
-void Guard::sweep(const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report) {
-  observe(pose);
-  sweepBodies(pose, /*arrived=*/true, workpieces, report);
-  if (!newest_) newest_.emplace();
-  assign(*newest_, pose);
-}
-
-void Guard::sweepOn(const Workpieces& workpieces, SweepReport& report) {
-  assert(newest_);
-  placeFollowed(*frames_, *newest_);
-  sweepBodies(*newest_, /*arrived=*/false, workpieces, report);
-}
-
-void Guard::sweepBodies(const PoseWithFrames& pose, bool arrived, const Workpieces& workpieces, SweepReport& report) {
+void Guard::sweep(const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report, bool arrived) {
+  if (arrived) observe(pose);
   const SteadyTime begin = options_.clock();
   displacements_->forgetUnused();
   for (size_t i = 0; i < bodies_.size(); ++i) {
     GuardedBody& body = *bodies_[i];
     SweepReport& swept = i == 0 ? report : body.report;
-    const BodyPose at = pose.body(i);
+    const BodyPose& at = pose.bodies[i];
     body.sweeps.sweep(sweepSetup(body), pose, arrived ? std::optional(at) : std::nullopt, workpieces, swept);
     body.touches.update(swept, pose, at.X_WB, body.tool, *intentions());
   }
   uniteResults(bodies_, &GuardedBody::report, report);
   report.jump = std::exchange(jump_, {});
   budget_->spentOnMeasured(options_.clock() - begin);
+  if (!newest_) newest_.emplace();
+  assign(*newest_, pose);
 }
 
 SweepSetup Guard::sweepSetup(const GuardedBody& body) const {
@@ -101,7 +90,7 @@ void Guard::takeBack() noexcept {
 
 void Guard::pass(const PoseWithFrames& pose) {
   observe(pose);
-  for (size_t i = 0; i < bodies_.size(); ++i) bodies_[i]->sweeps.pass(pose, pose.body(i), *frames_);
+  for (size_t i = 0; i < bodies_.size(); ++i) bodies_[i]->sweeps.pass(pose, pose.bodies[i], *frames_);
 }
 
 void Guard::throwIfStopping() const {
@@ -116,7 +105,7 @@ bool Guard::isWithin(double distance, const Workpiece& workpiece) {
   options.margin += distance;
   options.fine = true;  // a volume has corners that the tool has not
   const auto is_within = [&](size_t i) {
-    const std::vector<Eigen::Isometry3d> path_M = {X_WM->second.inverse() * newest_->body(i).X_WB};
+    const std::vector<Eigen::Isometry3d> path_M = {X_WM->second.inverse() * newest_->bodies[i].X_WB};
     const ContactPolicy contact(tool(i), workpiece, &options_.allowed);
     const PathRequest request{tool(i), path_M, workpiece.mesh_M, options, [this] { throwIfStopping(); }, {}, contact};
     return checkPath(*detector_, request).all.contact();
@@ -155,7 +144,7 @@ void Guard::exchange(GuardChange& change) {
     if (change.detector || !change.bodies.empty() || others_allowed) body.sweeps.forgetContacts();
     if (!change.bodies.empty()) std::swap(body.tool, change.bodies[i]);
     if (!change.bodies.empty()) body.touches.clear();
-    body.running = std::make_unique<BodyPrediction>(PathChecker::optionsOf(options_));
+    body.running = std::make_unique<BodyPrediction>(options_);
   }
   if (change.predictor) {
     std::swap(predictor_, *change.predictor);

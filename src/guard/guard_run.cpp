@@ -92,7 +92,7 @@ size_t Guard::Run::consideredSweeps() const {
   for (size_t body = 0; body < order_.size(); ++body) {
     const PredictedPath& path = motion_.pathOf(body);
     for (size_t i = 0; i < path.size(); ++i) {
-      const Motion step{i == 0 ? motion_.from.body(body).X_WB : path[i - 1].X_WT, path[i].X_WT};
+      const Motion step{i == 0 ? motion_.from.bodies[body].X_WB : path[i - 1].X_WT, path[i].X_WT};
       volumes[i < motion_.reflex_sweeps ? 0 : 1] += subMotionCount(step.angle(), guard_.options_.sweep.max_rotation);
     }
   }
@@ -117,7 +117,7 @@ void Guard::Run::beginBody() {
   const PredictedPath& path = motion_.pathOf(i);
   plan_.sweep_ends.clear();
   if (!path.empty())
-    findSweepEnds(motion_.from.body(i).X_WB, path, motion_.reflex_sweeps, considered_sweeps_, plan_.sweep_ends);
+    findSweepEnds(motion_.from.bodies[i].X_WB, path, motion_.reflex_sweeps, considered_sweeps_, plan_.sweep_ends);
   body.running->begin({body.tool, motion_, *workpieces_, plan_, i, &guard_.options_.allowed, intentions_.get(),
                        &body.touches, order_.size() > 1 ? &closest_ : nullptr},
                       i == 0 ? *prediction_ : body.prediction);

@@ -13,7 +13,7 @@ namespace sweep_guard_core {
 
 /// One rigid body of the guarded tool, and what Guard keeps for it.
 struct GuardedBody {
-  GuardedBody(Tool tool_B, const PathChecker::Options& options)
+  GuardedBody(Tool tool_B, const GuardOptions& options)
       : tool(std::move(tool_B)), running(std::make_unique<BodyPrediction>(options)) {}
 
   Tool tool;  ///< in the frame of the body

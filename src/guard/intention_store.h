@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sweep_guard/common/mutex.h"
+#include "common/guarded_by.h"
 #include "sweep_guard/guard/intention.h"
 
 namespace sweep_guard_core {

@@ -75,38 +75,10 @@ void MeasuredSweeps::pass(const PoseWithFrames& pose, const BodyPose& body, cons
   if (!waiting_since_ && !pose.anew) waiting_since_ = pose.received;
 }
 
+// A workpiece that is not swept now is swept from the same pose on next time.
 void MeasuredSweeps::sweep(const SweepSetup& setup, const PoseWithFrames& pose, const std::optional<BodyPose>& arrived,
                            const Workpieces& workpieces, SweepReport& report) {
-  begin(workpieces);
-  if (arrived) poses_.add(pose, *arrived, setup.frames);
-  poses_.join(setup.frames);
-  poses_.findJumps(swept_to_, setup.limits, report.jumps);
-  report.start = report.end = pose.stamp;
-  report.unplaced.clear();
-  report.failures.clear();
-  sweepWorkpieces(setup, pose, workpieces, report);
-  sweepReplaced(setup, pose, report);
-  poses_.forgetBefore(kMaxUpdateInterval,
-                      [this](const std::string& frame, std::uint64_t newest) { return firstUnswept(frame, newest); });
-  report.backlog = pose.received - waiting_since_.value_or(pose.received);
-  waiting_since_.reset();
-  report.passed_over = poses_.takePassedOver();
-  swept_to_ = poses_.newest();
-}
-
-void MeasuredSweeps::begin(const Workpieces& workpieces) {
-  forgetRemoved(workpieces);
-  for (auto& [id, swept] : swept_) {
-    swept.before = swept.pose;
-    swept.grown = false;
-  }
-  for (auto replaced = replaced_.begin(); replaced != replaced_.end();)
-    replaced = replaced->second.reported ? replaced_.erase(replaced) : std::next(replaced);
-}
-
-// A workpiece that is not swept now is swept from the same pose on next time.
-void MeasuredSweeps::sweepWorkpieces(const SweepSetup& setup, const PoseWithFrames& pose, const Workpieces& workpieces,
-                                     SweepReport& report) {
+  begin(setup, pose, arrived, workpieces, report);
   size_t tested = 0;
   for (const auto& workpiece : workpieces) {
     if (!poses_.isPlaced(workpiece->frame, pose, setup.frames)) {
@@ -115,9 +87,7 @@ void MeasuredSweeps::sweepWorkpieces(const SweepSetup& setup, const PoseWithFram
     }
     try {
       if (tested == report.objects.size()) report.objects.emplace_back();
-      SweptObject& object = report.objects[tested];
-      sweepObject(setup, workpiece, lastSwept(workpiece), pose.stamp, object);
-      report.start = std::min(report.start, object.interval_start);
+      sweepObject(setup, workpiece, lastSwept(workpiece), report, report.objects[tested]);
       ++tested;
     } catch (const std::exception& error) {  // of the detector, or no memory: the other workpieces are swept
       report.failures.push_back({workpiece, error.what()});
@@ -128,18 +98,45 @@ void MeasuredSweeps::sweepWorkpieces(const SweepSetup& setup, const PoseWithFram
     Swept& swept = lastSwept(workpiece);
     swept.before = swept.pose;
   }
+  sweepReplaced(setup, pose, report);
+  end(pose, report);
+}
+
+void MeasuredSweeps::begin(const SweepSetup& setup, const PoseWithFrames& pose, const std::optional<BodyPose>& arrived,
+                           const Workpieces& workpieces, SweepReport& report) {
+  forgetRemoved(workpieces);
+  for (auto& [id, swept] : swept_) {
+    swept.before = swept.pose;
+    swept.grown = false;
+  }
+  for (auto replaced = replaced_.begin(); replaced != replaced_.end();)
+    replaced = replaced->second.reported ? replaced_.erase(replaced) : std::next(replaced);
+  if (arrived) poses_.add(pose, *arrived, setup.frames);
+  poses_.join(setup.frames);
+  poses_.findJumps(swept_to_, setup.limits, report.jumps);
+  report.start = report.end = pose.stamp;
+  report.unplaced.clear();
+  report.failures.clear();
+}
+
+void MeasuredSweeps::end(const PoseWithFrames& pose, SweepReport& report) {
+  poses_.forgetBefore(kMaxUpdateInterval,
+                      [this](const std::string& frame, std::uint64_t newest) { return firstUnswept(frame, newest); });
+  report.backlog = pose.received - waiting_since_.value_or(pose.received);
+  waiting_since_.reset();
+  report.passed_over = poses_.takePassedOver();
+  swept_to_ = poses_.newest();
 }
 
 // What fails is swept to the next pose.
 void MeasuredSweeps::sweepReplaced(const SweepSetup& setup, const PoseWithFrames& pose, SweepReport& report) {
   report.replaced.clear();
   for (auto& [id, replaced] : replaced_) {
-    const auto workpiece = replaced.swept.deformations.back();
+    const auto workpiece = replaced.deformations.back();
     if (!poses_.isPlaced(workpiece->frame, pose, setup.frames)) continue;
     SweptObject& object = report.replaced.emplace_back();
     try {
-      sweepObject(setup, workpiece, replaced.swept, pose.stamp, object);
-      report.start = std::min(report.start, object.interval_start);
+      sweepObject(setup, workpiece, replaced, report, object);
       replaced.reported = true;
     } catch (const std::exception& error) {  // of the detector, or no memory
       report.replaced.pop_back();
@@ -148,9 +145,8 @@ void MeasuredSweeps::sweepReplaced(const SweepSetup& setup, const PoseWithFrames
   }
 }
 
-// @param end_time  of the interval that times of impact are fractions of
 void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<const Workpiece>& workpiece,
-                                 Swept& swept, Time end_time, SweptObject& object) {
+                                 Swept& swept, SweepReport& report, SweptObject& object) {
   const PoseHistory& history = poses_.of(workpiece->frame);
   const size_t last = history.size() - 1;
   swept.before = swept.pose;
@@ -161,58 +157,74 @@ void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<
   const MovingMesh mesh = movingMesh(*workpiece, *from, setup.displacements.between(from, workpiece));
   const bool again = deformed && mesh.moved();
   const size_t first = again ? std::min(begin, history.lastUpTo(before.stamp)) : begin;
-  const Segment segment{*workpiece, history, mesh, first, begin, last, begin, end_time};
   object.workpiece = workpiece;
   object.interval_start = history[begin].stamp;
   object.result.clear();
   const bool left_out = setup.several && staysOutOfReach(setup, history, first, last, mesh);
   if (left_out) {
-    leaveOut(setup, segment.hasNew(), swept.cache, object.result);
+    leaveOut(setup, /*has_new_poses=*/first == begin || begin < last, swept.cache, object.result);
   } else {
     cache_ = swept.cache;
-    for (size_t start = first; start <= last;) {
-      const Segment motion = segment.motionFrom(start);
-      sweepSegment(setup, motion, object);
-      if (motion.last < last)
-        cache_ = {};  // what was found before a change of place says nothing of where things are now
-      start = motion.last + 1;
+    const ContactPolicy contact(setup.tool, *workpiece, &setup.allowed, &setup.intentions);
+    for (size_t start = first, end = last; start <= last; start = end + 1) {
+      end = history.endOfMotion(start, last);
+      const size_t begin_of_new = std::clamp(begin, start, end);
+      history.path_M(start, end, setup.tool.boundingRadius(), path_M_);
+      size_t i = start;
+      do {
+        const bool is_new = i >= begin_of_new;
+        const size_t to = beginMotion(setup, history, start, i, is_new ? end : begin_of_new);
+        confirm(is_new, object.result);
+        SweepResult& result =
+            sweep_checker_.check(setup.detector, {setup.tool, sub_motions_M_, mesh, setup.options, cache_, contact});
+        keep(is_new, history.share(begin, i, report.end), history.share(begin, to, report.end), result, object);
+        i = to;
+      } while (i < end);
+      if (end < last) cache_ = {};  // what was found before a change of place says nothing of where things are now
     }
   }
   if (deformed) swept.deformations.push_back(workpiece);
   swept.grown = deformed;
   swept.pose = history.newest().number;
   if (!left_out) std::swap(swept.cache, cache_);
+  report.start = std::min(report.start, object.interval_start);
 }
 
-MeasuredSweeps::Segment MeasuredSweeps::Segment::motionFrom(size_t start) const {
-  const size_t end = history.endOfMotion(start, last);
-  return {workpiece, history, mesh, start, std::clamp(begin, start, end), end, interval_begin, end_time};
+// Finds the sub-motions of the next sweep, from pose i on, up to `last`. path_M_ begins with pose `first`. Returns its last pose.
+size_t MeasuredSweeps::beginMotion(const SweepSetup& setup, const PoseHistory& history, size_t first, size_t i,
+                                   size_t last) {
+  setup.before_sweep();
+  const double radius = setup.tool.boundingRadius();
+  const double max_rotation = setup.options.max_rotation;
+  size_t end = last;
+  if (i < last)
+    end = first + endOfMergedMotion(path_M_, i - first, last - first, radius, kMergeTolerance * radius, max_rotation);
+  if (end > i + 1) {
+    sub_motions_M_.assign(1, mergedMotion(path_M_, i - first, end - first, radius));
+  } else {
+    const PoseSample& from = history[i];
+    const PoseSample& to = history[end];
+    sub_motions_M_ = split({{from.X_WT, to.X_WT, to.deviation_bound}, {from.X_WM, to.X_WM}}, max_rotation, radius,
+                           std::move(sub_motions_M_));
+  }
+  return end;
 }
 
-void MeasuredSweeps::sweepSegment(const SweepSetup& setup, const Segment& segment, SweptObject& object) {
-  const auto& [workpiece, history, mesh, first, begin, last, interval_begin, end_time] = segment;
-  const ContactPolicy contact(setup.tool, workpiece, &setup.allowed, &setup.intentions);
-  history.path_M(first, last, setup.tool.boundingRadius(), path_M_);
-  size_t i = first;
-  do {
-    setup.before_sweep();
-    const bool is_new = segment.isNew(i);
-    const size_t end = first + endOfMotion(setup, i - first, (is_new ? last : begin) - first);
-    findSubMotions(setup, history, first, i - first, end - first);
-    cache_.already_confirmed.clear();
-    if (!is_new) {
-      cache_.already_confirmed = object.result.not_ruled_out;
-      remove(cache_.already_confirmed, object.result.intended);
-    }
-    SweepResult& result =
-        sweep_checker_.check(setup.detector, {setup.tool, sub_motions_M_, mesh, setup.options, cache_, contact});
-    if (is_new) cache_.contact_normals.clear();
-    update(cache_, result);
-    for (std::vector<TriangleContact>* const in_contact : {&result.in_contact, &result.allowed.in_contact})
-      rescale(*in_contact, history.share(interval_begin, i, end_time), history.share(interval_begin, end, end_time));
-    unite(object.result, result);
-    i = end;
-  } while (i < last);
+// Of poses that were swept before, what was found counts.
+void MeasuredSweeps::confirm(bool is_new, const SweepResult& found) {
+  cache_.already_confirmed.clear();
+  if (is_new) return;
+  cache_.already_confirmed = found.not_ruled_out;
+  remove(cache_.already_confirmed, found.intended);
+}
+
+// Adds what a sweep met, which lasts from `begin` to `end` of the interval.
+void MeasuredSweeps::keep(bool is_new, double begin, double end, SweepResult& result, SweptObject& object) {
+  if (is_new) cache_.contact_normals.clear();
+  update(cache_, result);
+  for (std::vector<TriangleContact>* const in_contact : {&result.in_contact, &result.allowed.in_contact})
+    rescale(*in_contact, begin, end);
+  unite(object.result, result);
 }
 
 // Returns the deformation that was there at the time of a pose, and forgets those before it.
@@ -233,7 +245,7 @@ void MeasuredSweeps::replace(Swept& swept, const std::shared_ptr<const Workpiece
   Swept next{{workpiece}, swept.pose};
   const auto [place, is_first] = replaced_.try_emplace(workpiece->id);
   std::swap(swept, next);
-  if (is_first) place->second.swept = std::move(next);
+  if (is_first) place->second = std::move(next);
 }
 
 // A workpiece with other triangles, or in another frame, has not been swept since the last pose.
@@ -251,27 +263,6 @@ MeasuredSweeps::Swept& MeasuredSweeps::lastSwept(const std::shared_ptr<const Wor
   return swept;
 }
 
-// Numbers count points of path_M_.
-size_t MeasuredSweeps::endOfMotion(const SweepSetup& setup, size_t begin, size_t last) const {
-  if (begin >= last) return last;
-  const double radius = setup.tool.boundingRadius();
-  return endOfMergedMotion(path_M_, begin, last, radius, {kMergeTolerance * radius, setup.options.max_rotation});
-}
-
-// Between two points of path_M_, whose first point is sample `first` of the history.
-void MeasuredSweeps::findSubMotions(const SweepSetup& setup, const PoseHistory& history, size_t first, size_t begin,
-                                    size_t end) {
-  const double radius = setup.tool.boundingRadius();
-  if (end > begin + 1) {
-    sub_motions_M_.assign(1, mergedMotion(path_M_, begin, end, radius));
-    return;
-  }
-  const PoseSample& from = history[first + begin];
-  const PoseSample& to = history[first + end];
-  sub_motions_M_ = split({{from.X_WT, to.X_WT, to.deviation_bound}, {from.X_WM, to.X_WM}}, setup.options.max_rotation,
-                         radius, std::move(sub_motions_M_));
-}
-
 void MeasuredSweeps::takeBack() noexcept {
   for (auto& [id, swept] : swept_) {
     swept.pose = swept.before;
@@ -279,7 +270,7 @@ void MeasuredSweeps::takeBack() noexcept {
     swept.grown = false;
   }
   for (auto& [id, replaced] : replaced_) {
-    replaced.swept.pose = replaced.swept.before;
+    replaced.pose = replaced.before;
     replaced.reported = false;
   }
 }
@@ -293,7 +284,7 @@ void MeasuredSweeps::reset() {
 
 void MeasuredSweeps::forgetContacts() {
   for (auto& [id, swept] : swept_) swept.cache = {};
-  for (auto& [id, replaced] : replaced_) replaced.swept.cache = {};
+  for (auto& [id, replaced] : replaced_) replaced.cache = {};
 }
 
 // A workpiece that appears later in an empty frame was not there when the tool moved.
@@ -305,11 +296,10 @@ void MeasuredSweeps::forgetRemoved(const Workpieces& workpieces) {
 
 std::uint64_t MeasuredSweeps::firstUnswept(const std::string& frame, std::uint64_t newest) const {
   std::uint64_t unswept = newest;
-  for (const auto& [id, swept] : swept_) {
-    if (swept.deformations.back()->frame == frame) unswept = std::min(unswept, swept.before);
-  }
-  for (const auto& [id, replaced] : replaced_) {
-    if (replaced.swept.deformations.back()->frame == frame) unswept = std::min(unswept, replaced.swept.before);
+  for (const auto* const all : {&swept_, &replaced_}) {
+    for (const auto& [id, swept] : *all) {
+      if (swept.deformations.back()->frame == frame) unswept = std::min(unswept, swept.before);
+    }
   }
   return unswept;
 }

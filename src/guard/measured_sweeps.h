@@ -66,56 +66,33 @@ class MeasuredSweeps {
     bool incomplete = false;   // deformations before the first of these are forgotten
     std::uint64_t before = 0;  // `pose` before the last sweep
     bool grown = false;        // the last sweep has added a deformation
+    bool reported = false;     // of triangles that were replaced: by the last sweep
   };
 
-  // A workpiece with the triangles that were replaced, until it is swept to a pose at which it has the new ones.
-  struct Replaced {
-    Swept swept;
-    bool reported = false;  // by the last sweep
-  };
-
-  // Poses to be swept against one workpiece, from motion to motion. Those before `begin` were swept when its deformation was not
-  // known yet.
-  struct Segment {
-    const Workpiece& workpiece;
-    const PoseHistory& history;
-    const MovingMesh& mesh;
-    size_t first;
-    size_t begin;
-    size_t last;
-    size_t interval_begin;  // pose that the interval begins at that times of impact are fractions of
-    Time end_time;          // of that interval
-
-    bool isNew(size_t i) const { return i >= begin; }
-    bool hasNew() const { return first == begin || begin < last; }
-
-    /// Returns the part up to the next change of place.
-    Segment motionFrom(size_t start) const;
-  };
-
-  void begin(const Workpieces& workpieces);
-  void sweepWorkpieces(const SweepSetup& setup, const PoseWithFrames& pose, const Workpieces& workpieces,
-                       SweepReport& report);
+  void begin(const SweepSetup& setup, const PoseWithFrames& pose, const std::optional<BodyPose>& arrived,
+             const Workpieces& workpieces, SweepReport& report);
+  void end(const PoseWithFrames& pose, SweepReport& report);
   void sweepObject(const SweepSetup& setup, const std::shared_ptr<const Workpiece>& workpiece, Swept& swept,
-                   Time end_time, SweptObject& object);
+                   SweepReport& report, SweptObject& object);
   void sweepReplaced(const SweepSetup& setup, const PoseWithFrames& pose, SweepReport& report);
-  void sweepSegment(const SweepSetup& setup, const Segment& segment, SweptObject& object);
+  size_t beginMotion(const SweepSetup& setup, const PoseHistory& history, size_t first, size_t i, size_t last);
+  void confirm(bool is_new, const SweepResult& found);
+  void keep(bool is_new, double begin, double end, SweepResult& result, SweptObject& object);
   static const std::shared_ptr<const Workpiece>& deformationAt(Time pose, const Workpiece& newest, Swept& swept,
                                                                Duration& behind);
   void replace(Swept& swept, const std::shared_ptr<const Workpiece>& workpiece);
   Swept& lastSwept(const std::shared_ptr<const Workpiece>& workpiece);
-  size_t endOfMotion(const SweepSetup& setup, size_t begin, size_t last) const;
-  void findSubMotions(const SweepSetup& setup, const PoseHistory& history, size_t first, size_t begin, size_t end);
   void forgetRemoved(const Workpieces& workpieces);
   std::uint64_t firstUnswept(const std::string& frame, std::uint64_t newest) const;
 
   PoseHistories poses_;
-  std::map<std::string, Swept> swept_;        // by id
-  std::map<std::string, Replaced> replaced_;  // by id
-  std::uint64_t swept_to_ = 0;                // number of the pose of the last sweep
-  std::optional<SteadyTime> waiting_since_;   // when the first pose passed since then was received
-  Path path_M_;                               // of the segment under test
-  std::vector<Motion> sub_motions_M_;         // of a motion along the segment
+  std::map<std::string, Swept> swept_;  // by id
+  // By id, with the triangles that were replaced, until they are swept to a pose at which the workpiece has the new ones.
+  std::map<std::string, Swept> replaced_;
+  std::uint64_t swept_to_ = 0;               // number of the pose of the last sweep
+  std::optional<SteadyTime> waiting_since_;  // when the first pose passed since then was received
+  Path path_M_;                              // of the segment under test
+  std::vector<Motion> sub_motions_M_;        // of a motion along the segment
   SweepChecker sweep_checker_;
   SweepCache cache_;  // kept apart while the sweep may still fail
 };

@@ -10,13 +10,6 @@ constexpr double kReflexDeviation = 5e-4;      // [m], of a body from a Motion
 constexpr double kConsideredDeviation = 5e-3;  // [m]
 constexpr size_t kMostParts = 4;               // of a step
 
-std::vector<PredictableJoint> jointsOf(const KinematicTree& tree) {
-  std::vector<PredictableJoint> joints;
-  for (const JointVariable& variable : tree.variables())
-    joints.push_back({tree.turns(joints.size()), variable.continuous, variable.lower, variable.upper});
-  return joints;
-}
-
 // Carries the errors of a frame to a point that moves with it, at r from its origin: dx + dtheta x r.
 Matrix6d carried(const Matrix6d& covariance, const Eigen::Vector3d& r) {
   Matrix6d A = Matrix6d::Identity();
@@ -51,7 +44,7 @@ Jacobian turnedJacobian(const Jacobian& J_R, const Eigen::Matrix3d& R_WR) {
 
 MotionPredictor::MotionPredictor(const PredictorOptions& options, std::shared_ptr<const Robot> robot)
     : tool_(options), robot_(std::move(robot)) {
-  if (robot_) joints_.emplace(options, jointsOf(robot_->tree));
+  if (robot_) joints_.emplace(options, robot_->tree.variables());
 }
 
 void MotionPredictor::observe(const PoseWithFrames& pose) {

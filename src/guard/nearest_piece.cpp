@@ -1,17 +1,13 @@
 #include "guard/nearest_piece.h"
 
 #include <algorithm>
+#include <variant>
 
 #include "common/floating_point.h"
 #include "common/stage_clock.h"
 #include "guard/tool_tree.h"
 
 namespace sweep_guard_core {
-namespace {
-
-struct Nothing {};
-
-}  // namespace
 
 bool WorkpieceOnPath::hasTouched(size_t piece) const {
   return touches != nullptr && contact.intendsAny() && touches->contains(workpiece.id, tool.pieces()[piece].link);
@@ -54,7 +50,7 @@ std::array<size_t, 2> PieceBounds::nearestFirst(const Tool::Node& node) const {
 }
 
 bool PieceBounds::anyWithin(double limit, const ContactPolicy& contact) const {
-  TreeWalk<Nothing> walk({});
+  TreeWalk<std::monostate> walk({});
   while (const auto at = walk.next()) {
     if (least(at->node) > limit) continue;
     const Tool::Node& node = tool_->tree()[at->node];
@@ -112,7 +108,7 @@ struct NearestPieceFinder::Search {
   // the function returns true. Returns whether one did.
   template <typename Test>
   bool anyPiece(const Test& test) {
-    TreeWalk<Nothing> walk({});
+    TreeWalk<std::monostate> walk({});
     while (const auto at = walk.next()) {
       if (isLeftOut(at->node)) continue;
       const Tool::Node& node = on_path.tool.tree()[at->node];

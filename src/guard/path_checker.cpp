@@ -24,8 +24,12 @@ void addFreeSweeps(const PredictedPathRequest& request, PredictedObject& object)
 
 }  // namespace
 
-PathChecker::PathChecker(const Options& options)
-    : options_(options), path_(options.sweep, options.max_deviations), nearest_finder_(options.max_deviations) {}
+PathChecker::PathChecker(const SweepOptions& options, Duration finest, double max_deviations)
+    : options_(options),
+      finest_(finest),
+      max_deviations_(max_deviations),
+      path_(options, max_deviations),
+      nearest_finder_(max_deviations) {}
 
 void PathChecker::forgetPath() {
   path_.forget();
@@ -42,7 +46,7 @@ void PathChecker::begin(const PredictedPathRequest& request, PredictedObject& ob
   test_.reset();
   object.clear();
   object.workpiece = request.workpiece;
-  const double margin = options_.sweep.margin + object.workpiece->mesh_M.rounding();
+  const double margin = options_.margin + object.workpiece->mesh_M.rounding();
   const bool several = request.closest != nullptr && request.frame == nullptr;
   if (several && staysOutOfReach(request, margin)) return addFreeSweeps(request, object);
   beginTest(request, margin, object);
@@ -62,7 +66,7 @@ bool PathChecker::staysOutOfReach(const PredictedPathRequest& request, double ma
     error = std::max(error, moves + radius * turns);
     deviation = std::max(deviation, pose.deviation_bound);
   }
-  const double reach = radius + margin + deviation + options_.max_deviations * error;
+  const double reach = radius + margin + deviation + max_deviations_ * error;
   return staysBeside(request.workpiece->mesh_M, origins_M, reach);
 }
 
@@ -77,7 +81,7 @@ void PathChecker::beginTest(const PredictedPathRequest& request, double margin, 
   const size_t reflex_sweeps = request.reflex_sweeps;
   test_.emplace(
       Test{{request.tool, workpiece, ContactPolicy(request.tool, workpiece, request.allowed, request.intentions),
-            request.touches, options_.sweep, margin},
+            request.touches, options_, margin},
            request.plan,
            request.plan.sweepCount(request.path),
            reflex_sweeps,
@@ -131,7 +135,7 @@ void PathChecker::testSegment(Detector& detector, const Waiting& waiting) {
   const Submesh submesh = submeshInReach(waiting.around, path_[waiting.number].reach_M, waiting.halvings);
   const SweptSegment& swept = submesh.empty() ? path_[waiting.number] : path_.measure(waiting.number);
   const Duration length = segment.to - segment.from;
-  const bool coarse = !test.contact && length > std::max(kFinestProbable, options_.finest);
+  const bool coarse = !test.contact && length > std::max(kFinestProbable, finest_);
   const bool near = !coarse || nearest_finder_.any(on_path, submesh, swept, bounds);
   if (coarse && near && test.inTimeFor(segment)) {
     test.object.volumes_tested += volumes;
@@ -148,7 +152,7 @@ void PathChecker::testSegment(Detector& detector, const Waiting& waiting) {
   } else {
     contact_finder_.assume(on_path, submesh, nearest_.unseparated, contacts_);
   }
-  if (contacts_.meets && !test.contact && in_time && length > options_.finest) return halve(waiting, submesh);
+  if (contacts_.meets && !test.contact && in_time && length > finest_) return halve(waiting, submesh);
   report(segment, nearest_, contacts_);
 }
 

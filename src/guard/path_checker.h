@@ -34,16 +34,9 @@ namespace sweep_guard_core {
 /// of the mesh for each sweep; more only where the tool comes near. Keeps its buffers. Source: [P, Sec. 3.2].
 class PathChecker {
  public:
-  struct Options {
-    SweepOptions sweep;
-    Duration finest;                         ///< a sweep with contact is halved until it lasts no longer than this, > 0
-    double max_deviations = kMaxDeviations;  ///< contacts at more standard deviations are ignored
-  };
-  static Options optionsOf(const GuardOptions& options) {
-    return {options.sweep, options.horizon.reflex_step / 2, options.max_deviations};
-  }
-
-  explicit PathChecker(const Options& options);
+  /// @param finest          a sweep with contact is halved until it lasts no longer than this, > 0
+  /// @param max_deviations  contacts at more standard deviations are ignored
+  PathChecker(const SweepOptions& options, Duration finest, double max_deviations = kMaxDeviations);
 
   /// Forgets the path. Between two calls, the requests of begin() differ only in the workpiece and its frame.
   void forgetPath();
@@ -95,7 +88,9 @@ class PathChecker {
   void halve(const Waiting& waiting, const Submesh& submesh);
   void report(const PathSegment& segment, const NearestPiece& nearest, const SegmentContacts& contacts);
 
-  Options options_;
+  SweepOptions options_;
+  Duration finest_;
+  double max_deviations_;
   SweptPath path_;
   NearestPieceFinder nearest_finder_;
   SegmentContactFinder contact_finder_;

@@ -89,23 +89,23 @@ void PathInMesh::follow(const Tool& tool, const Eigen::Isometry3d& X_WT, const P
 }
 
 void PathInMesh::follow(const Tool& tool, const Eigen::Isometry3d& X_WT, const PredictedPath& path,
-                        const FramePath& frame) {
-  assert(!path.empty() && frame.points.size() == path.size() + 1);
+                        const PredictedPath& frame) {
+  assert(!path.empty() && frame.size() == path.size() + 1);
   begin(tool);
   const Eigen::Isometry3d* from_WT = &X_WT;
-  const auto add = [&](Duration ahead, const Matrix6d& covariance_W, const FramePath::Point& point, double deviation) {
-    path_M_.push_back({ahead, point.X_WM.inverse() * *from_WT, deviation});
-    const Matrix6d both_W = covariance_W + movedTo(from_WT->translation() - point.X_WM.translation(), point.covariance);
-    covariances_M_.push_back(turnedCovariance(both_W, point.X_WM.linear().transpose()));
+  const auto add = [&](Duration ahead, const Matrix6d& covariance_W, const PredictedPose& moved, double deviation) {
+    const Eigen::Isometry3d& X_WM = moved.X_WT;
+    path_M_.push_back({ahead, X_WM.inverse() * *from_WT, deviation});
+    const Matrix6d both_W = covariance_W + movedTo(from_WT->translation() - X_WM.translation(), moved.covariance);
+    covariances_M_.push_back(turnedCovariance(both_W, X_WM.linear().transpose()));
   };
-  add(Duration::zero(), Matrix6d::Zero(), frame.points[0], 0.0);
+  add(Duration::zero(), Matrix6d::Zero(), frame[0], 0.0);
   for (size_t i = 0; i < path.size(); ++i) {
-    const FramePath::Point& before = frame.points[i];
-    const FramePath::Point& point = frame.points[i + 1];
-    deviations_.push_back(path[i].deviation_bound + point.deviation_bound);
-    steps_W_.push_back({{*from_WT, path[i].X_WT, deviations_.back()}, {before.X_WM, point.X_WM}});
+    const PredictedPose& moved = frame[i + 1];
+    deviations_.push_back(path[i].deviation_bound + moved.deviation_bound);
+    steps_W_.push_back({{*from_WT, path[i].X_WT, deviations_.back()}, {frame[i].X_WT, moved.X_WT}});
     from_WT = &path[i].X_WT;
-    add(path[i].ahead, path[i].covariance, point, chordError(steps_W_.back(), tool_radius_) + deviations_.back());
+    add(path[i].ahead, path[i].covariance, moved, chordError(steps_W_.back(), tool_radius_) + deviations_.back());
   }
 }
 

@@ -29,9 +29,9 @@ class PathInMesh {
   /// @param path  at least one pose
   void follow(const Tool& tool, const Eigen::Isometry3d& X_WT, const PredictedPath& path,
               const Eigen::Isometry3d& X_WM);
-  /// Sets the path in a frame that moves. The covariances become those of the tool relative to the frame: the errors of both
+  /// Sets the path in a frame that moves as framePath() says. The covariances become those of the tool relative to the frame: the errors of both
   /// count as independent.
-  void follow(const Tool& tool, const Eigen::Isometry3d& X_WT, const PredictedPath& path, const FramePath& frame);
+  void follow(const Tool& tool, const Eigen::Isometry3d& X_WT, const PredictedPath& path, const PredictedPath& frame);
 
   PathSegment whole() const { return between(0, path_M_.size() - 1); }
 

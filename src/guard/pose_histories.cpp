@@ -24,8 +24,9 @@ void PoseHistories::add(const PoseWithFrames& pose, const BodyPose& body, const 
 void PoseHistories::join(const FrameMotions& frames) {
   for (const auto& [frame, motion] : frames) {
     joined_[frame].join(*motion, samples_);
-    for (const JoinedMotion::Sample& sample : samples_) {
-      histories_[frame].add({++poses_, sample.stamp, sample.X_WB, sample.X_WM, sample.deviation_bound, sample.anew});
+    for (PoseSample& sample : samples_) {
+      sample.number = ++poses_;
+      histories_[frame].add(sample);
       if (sample.left_out) passed_over_.insert(frame);
     }
   }

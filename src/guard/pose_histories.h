@@ -56,7 +56,7 @@ class PoseHistories {
  private:
   std::map<std::string, PoseHistory> histories_;  // by frame
   std::map<std::string, JoinedMotion> joined_;    // by frame, of those that move on their own
-  std::vector<JoinedMotion::Sample> samples_;     // of one of these
+  std::vector<PoseSample> samples_;               // of one of these
   std::uint64_t poses_ = 0;
   std::set<std::string> passed_over_;
 };

@@ -109,7 +109,7 @@ BodyPose SparseMotion::take() {
   return newest;
 }
 
-void JoinedMotion::join(const FrameMotion& frame, std::vector<Sample>& samples) {
+void JoinedMotion::join(const FrameMotion& frame, std::vector<PoseSample>& samples) {
   samples.clear();
   if (body_.size() == 0 || (!frame_ && !begin(frame, samples))) return;
   const auto is_after = [](Time time, const FramePose& pose) { return time < pose.stamp; };
@@ -124,7 +124,7 @@ void JoinedMotion::join(const FrameMotion& frame, std::vector<Sample>& samples) 
 }
 
 // Returns false if no time is known of both.
-bool JoinedMotion::begin(const FrameMotion& frame, std::vector<Sample>& samples) {
+bool JoinedMotion::begin(const FrameMotion& frame, std::vector<PoseSample>& samples) {
   const auto& measured = frame.measured;
   const Time time = std::max(body_[0].stamp, measured.front().stamp);
   if (time > body_.newest().stamp || time > measured.back().stamp) return false;
@@ -136,10 +136,11 @@ bool JoinedMotion::begin(const FrameMotion& frame, std::vector<Sample>& samples)
   return true;
 }
 
-JoinedMotion::Sample JoinedMotion::at(Time time, const FramePose& next) const {
+PoseSample JoinedMotion::at(Time time, const FramePose& next) const {
   const Pose& from = body_[0];
   const Pose& to = body_[std::min<size_t>(1, body_.size() - 1)];
-  return {time,
+  return {0,
+          time,
           between(from.stamp, from.body.X_WB, to.stamp, to.body.X_WB, to.anew, time),
           between(frame_->stamp, frame_->X_WM, next.stamp, next.X_WM, next.anew, time),
           to.body.deviation_bound + next.deviation_bound,

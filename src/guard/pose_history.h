@@ -20,6 +20,7 @@ struct PoseSample {
   Eigen::Isometry3d X_WM;
   double deviation_bound = 0.0;  ///< of the motion since the previous sample, see BodyPose
   bool anew = false;             ///< there is no motion from the previous sample, see PlacedAnew
+  bool left_out = false;         ///< the frame went straight past poses since the previous sample
 };
 
 /// Where a point of the tool is at some poses, seen from a frame M, and how far the tool is from the chords between them.
@@ -97,23 +98,14 @@ class SparseMotion {
 /// same times: at the stamps of either, up to the older of both newest stamps.
 class JoinedMotion {
  public:
-  struct Sample {
-    Time stamp;
-    Eigen::Isometry3d X_WB;
-    Eigen::Isometry3d X_WM;
-    double deviation_bound;  ///< [m] of both together, since the previous sample
-    bool anew = false;       ///< body or frame did not move here from the previous sample
-    bool left_out = false;   ///< the frame went straight past poses since the previous sample
-  };
-
   /// Adds the newest pose of the body; stamps do not decrease. Of more than 8192 that wait, it goes straight past the oldest.
   /// @param anew  the body did not move here
   /// @returns false if it goes past one
   bool add(Time stamp, const BodyPose& body, bool anew = false) { return body_.add({stamp, body, anew}); }
 
   /// Computes the samples since the last call. The first is at the first time at which both are known.
-  /// @param[out] samples  overwritten
-  void join(const FrameMotion& frame, std::vector<Sample>& samples);
+  /// @param[out] samples  overwritten; deviation bounds are those of body and frame together. Without numbers
+  void join(const FrameMotion& frame, std::vector<PoseSample>& samples);
 
  private:
   struct Pose {
@@ -122,8 +114,8 @@ class JoinedMotion {
     bool anew;
   };
 
-  bool begin(const FrameMotion& frame, std::vector<Sample>& samples);
-  Sample at(Time time, const FramePose& next) const;
+  bool begin(const FrameMotion& frame, std::vector<PoseSample>& samples);
+  PoseSample at(Time time, const FramePose& next) const;
 
   SampleBuffer<Pose> body_;         // once begun, the first is the newest that is not after the last sample
   std::optional<FramePose> frame_;  // the same of the frame; empty: not begun

@@ -37,7 +37,7 @@ struct PredictedPathRequest {
   const AllowedPairs* allowed = nullptr;     ///< null: none
   const Intentions* intentions = nullptr;    ///< null: contact is meant nowhere
   const IntendedTouches* touches = nullptr;  ///< null: none
-  const FramePath* frame = nullptr;          ///< along `path`, of a frame that moves on its own
+  const PredictedPath* frame = nullptr;      ///< framePath() along `path`, of a frame that moves on its own
   ClosestApproaches* closest = nullptr;      ///< of the bodies of the tool; null: it is the only one
 };
 

@@ -9,22 +9,6 @@
 namespace sweep_guard_core {
 namespace {
 
-struct Means {
-  Eigen::Vector3d before_M = Eigen::Vector3d::Zero();
-  Eigen::Vector3d after_M = Eigen::Vector3d::Zero();
-};
-
-template <typename PositionOf>
-Means meansOf(const TriangleMesh& mesh_M, const PositionOf& after_M) {
-  Means means;
-  for (size_t i = 0; i < mesh_M.vertexCount(); ++i) {
-    means.before_M += mesh_M.vertex(i);
-    means.after_M += after_M(i);
-  }
-  const auto count = static_cast<double>(mesh_M.vertexCount());
-  return {means.before_M / count, means.after_M / count};
-}
-
 // Returns the rotation by which one set of points about its mean becomes most nearly another one, from the sum of their
 // outer products.
 Eigen::Matrix3d rotationOf(const Eigen::Matrix3d& products) {
@@ -37,13 +21,20 @@ Eigen::Matrix3d rotationOf(const Eigen::Matrix3d& products) {
 template <typename PositionOf>
 RigidFit fit(const TriangleMesh& mesh_M, const PositionOf& after_M) {
   RigidFit fit{{}, std::numeric_limits<double>::infinity()};
-  const Means means = meansOf(mesh_M, after_M);
-  if (!means.after_M.allFinite()) return fit;
+  Eigen::Vector3d mean_before_M = Eigen::Vector3d::Zero();
+  Eigen::Vector3d mean_after_M = Eigen::Vector3d::Zero();
+  for (size_t i = 0; i < mesh_M.vertexCount(); ++i) {
+    mean_before_M += mesh_M.vertex(i);
+    mean_after_M += after_M(i);
+  }
+  mean_before_M /= static_cast<double>(mesh_M.vertexCount());
+  mean_after_M /= static_cast<double>(mesh_M.vertexCount());
+  if (!mean_after_M.allFinite()) return fit;
   Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
   for (size_t i = 0; i < mesh_M.vertexCount(); ++i)
-    products += (after_M(i) - means.after_M) * (mesh_M.vertex(i) - means.before_M).transpose();
+    products += (after_M(i) - mean_after_M) * (mesh_M.vertex(i) - mean_before_M).transpose();
   fit.X_MM.linear() = rotationOf(products);
-  fit.X_MM.translation() = means.after_M - fit.X_MM.linear() * means.before_M;
+  fit.X_MM.translation() = mean_after_M - fit.X_MM.linear() * mean_before_M;
   double farthest = 0.0;
   for (size_t i = 0; i < mesh_M.vertexCount(); ++i)
     farthest = std::max(farthest, (after_M(i) - fit.X_MM * mesh_M.vertex(i)).squaredNorm());

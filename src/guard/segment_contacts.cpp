@@ -49,15 +49,16 @@ bool SegmentContactFinder::keepNewlyMet(const WorkpieceOnPath& on_path, const Tr
                                         const UnseparatedPiece& piece, const ReportedTriangles& reported,
                                         bool& only_volume) {
   IntendedTriangles intended = on_path.intendedFor(*piece.approach.piece, piece.body.motion_M);
-  const HullFilter hull(piece.body, mesh_M, detection_.inflation);
+  const bool is_hull = piece.body.kind == VolumeKind::kHull;
   bool meets = false;
   const auto isNewlyMet = [&](std::uint32_t triangle) {
     const bool is_reported = reported.contains(triangle);
     if (is_reported && meets && !only_volume) return false;
     beat();
-    if (intended.contains(triangle, mesh_M) || hull.leavesOut(triangle)) return false;
+    if (intended.contains(triangle, mesh_M)) return false;
+    if (is_hull && misses(piece.body, mesh_M, triangle, detection_.inflation)) return false;
     meets = true;
-    only_volume = only_volume && hull.bodyMisses(triangle);
+    only_volume = only_volume && misses(piece.body, mesh_M, triangle);
     return !is_reported;
   };
   TriangleSet& triangles = detection_.triangles;

@@ -45,7 +45,7 @@ TriangleMesh GoldenQuery::mesh_M() const {
     mesh.push_back({first, first + 1, first + 2});
     for (const Eigen::Vector3d& corner : triangle.corners) vertices_M.push_back(X_MN * corner.cwiseProduct(unit));
   }
-  return {vertices_M, std::move(mesh), SurfaceKind::kSheet};
+  return {vertices_M, std::move(mesh), /*is_sheet=*/true};
 }
 
 // A triangle that points at a place from outside.
@@ -111,20 +111,18 @@ Ask askAbout(const SweptVolume& volume_M) {
   };
 }
 
-// A body that moves along z and turns about x, through the origin of N.
-struct Sweep {
-  double half_way;   // [m]
-  double half_turn;  // [rad]
-};
-
-Ask askAbout(const ConvexShape& shape_T, const Sweep& sweep, const Eigen::Isometry3d& X_MN, VolumeKind kind) {
+// A body that moves along z by half_way [m] to either side and turns about x by half_turn [rad], through the origin of N.
+Ask askAbout(const ConvexShape& shape_T, double half_way, double half_turn, const Eigen::Isometry3d& X_MN,
+             VolumeKind kind) {
   const auto pose = [&](double side) -> Eigen::Isometry3d {
-    return X_MN * Eigen::Translation3d(0.0, 0.0, side * sweep.half_way) *
-           Eigen::AngleAxisd(side * sweep.half_turn, Eigen::Vector3d::UnitX());
+    return X_MN * Eigen::Translation3d(0.0, 0.0, side * half_way) *
+           Eigen::AngleAxisd(side * half_turn, Eigen::Vector3d::UnitX());
   };
   const Motion motion_M{pose(-1.0), pose(1.0)};
   return [=](Detector& detector, const TriangleMesh& mesh_M, Detection& detection) {
-    detect(detector, mesh_M, sweptBody(shape_T, motion_M, kind, mesh_M.rounding()), detection);
+    const SweptBody body = sweptBody(shape_T, motion_M, kind, mesh_M.rounding());
+    detection = detector.detect(mesh_M, body.volume_M);
+    removeMissedByHull(body, mesh_M, detection);
   };
 }
 
@@ -164,7 +162,7 @@ std::vector<GoldenQuery> movingBoxes() {
     const Eigen::Isometry3d X_MN = placed(distance, -1.0);
     for (const VolumeKind kind : {VolumeKind::kObb, VolumeKind::kObbPlanes, VolumeKind::kHull}) {
       all.push_back({"moving box, " + nameOf(kind),
-                     askAbout(body, {0.02, 0.0}, X_MN, kind),
+                     askAbout(body, 0.02, 0.0, X_MN, kind),
                      X_MN,
                      {0.01, 0.02, 0.05},
                      deepAndFar()});
@@ -176,10 +174,10 @@ std::vector<GoldenQuery> movingBoxes() {
 std::vector<GoldenQuery> otherBodies() {
   using V = Eigen::Vector3d;
   const Eigen::Isometry3d X_MN = placed(1.0, 2.0);
-  const auto body = [&](const std::string& name, const ConvexShape& shape_T, const Sweep& sweep, VolumeKind kind,
-                        std::vector<GoldenTriangle> triangles) {
-    return GoldenQuery{name + ", " + nameOf(kind), askAbout(shape_T, sweep, X_MN, kind), X_MN, V::Constant(0.05),
-                       std::move(triangles)};
+  const auto body = [&](const std::string& name, const ConvexShape& shape_T, double half_way, double half_turn,
+                        VolumeKind kind, std::vector<GoldenTriangle> triangles) {
+    return GoldenQuery{name + ", " + nameOf(kind), askAbout(shape_T, half_way, half_turn, X_MN, kind), X_MN,
+                       V::Constant(0.05), std::move(triangles)};
   };
   const std::vector<GoldenTriangle> thin = {{"through it", across(V::Zero(), {1, 2, 3}), true},
                                             {"beside it", across({0.5, 0, 0}, {1, 0, 0}), false}};
@@ -189,13 +187,13 @@ std::vector<GoldenQuery> otherBodies() {
   const V aside(0.0, 0.5, 0.0);
   std::vector<GoldenTriangle> slanting;
   addGrazing(slanting, "slanting plane", (0.4 + 0.4 * 0.6) * V(0.8, 0.0, 0.6), plane);
-  return {body("flat box", ConvexShape::box({0.0, 0.02, 0.03}), {0.02, 0.0}, VolumeKind::kObbPlanes, thin),
-          body("needle", ConvexShape::box({0.0, 0.0, 0.03}), {0.02, 0.0}, VolumeKind::kObbPlanes, thin),
-          body("box at rest", ConvexShape::box({0.01, 0.02, 0.03}), {0.0, 0.0}, VolumeKind::kObbPlanes, thin),
-          body("ball", ball, {0.02, 0.0}, VolumeKind::kObb, {{"within its box", {rim, rim, rim}, true}}),
-          body("ball", ball, {0.02, 0.0}, VolumeKind::kHull, {{"off its hull", {rim, rim, rim}, false}}),
-          body("ball", ball, {0.02, 0.0}, VolumeKind::kHull, slanting),
-          body("turning rod", ConvexShape::box({0.002, 0.002, 0.05}), {0.0, 0.085}, VolumeKind::kHull,
+  return {body("flat box", ConvexShape::box({0.0, 0.02, 0.03}), 0.02, 0.0, VolumeKind::kObbPlanes, thin),
+          body("needle", ConvexShape::box({0.0, 0.0, 0.03}), 0.02, 0.0, VolumeKind::kObbPlanes, thin),
+          body("box at rest", ConvexShape::box({0.01, 0.02, 0.03}), 0.0, 0.0, VolumeKind::kObbPlanes, thin),
+          body("ball", ball, 0.02, 0.0, VolumeKind::kObb, {{"within its box", {rim, rim, rim}, true}}),
+          body("ball", ball, 0.02, 0.0, VolumeKind::kHull, {{"off its hull", {rim, rim, rim}, false}}),
+          body("ball", ball, 0.02, 0.0, VolumeKind::kHull, slanting),
+          body("turning rod", ConvexShape::box({0.002, 0.002, 0.05}), 0.0, 0.085, VolumeKind::kHull,
                {{"at its tip", {tip, tip, tip}, true}, {"beside it", {aside, aside, aside}, false}})};
 }
 

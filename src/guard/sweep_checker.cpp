@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/heartbeat.h"
 #include "common/stage_clock.h"
 #include "detection/float_planes.h"
 #include "detection/inside.h"
@@ -109,16 +110,50 @@ void uniteBodies(SweepResult& all, const SweepResult& other) {
   uniteSimultaneous(all.allowed.in_contact, other.allowed.in_contact);
 }
 
+// Planes decide about the boxes; the detector, which costs more for each triangle that it names, about the pieces.
 SweepResult& SweepChecker::check(Detector& detector, const SweepRequest& request) {
-  result_.clear();
-  for (std::vector<TriangleSet>* const of_pieces : {&candidates_, &allowed_}) {
-    of_pieces->resize(request.tool.pieces().size());
-    for (TriangleSet& candidates : *of_pieces) candidates.clear();
-  }
+  clear(request.tool.pieces().size());
+  const double margin = request.options.margin + request.mesh.spread();
   for (Motion motion_M : request.sub_motions) {
     motion_M.mesh_translation = request.mesh.translation_M();
-    sweep(detector, request, motion_M);
+    TreeWalk<Around> walk({request.mesh.mesh_M(), 0});
+    while (const auto at = walk.next()) {
+      const Tool::Node& node = request.tool.tree()[at->node];
+      const SweptBody body = sweptBody(node.shape_T, motion_M, request.options.volume, margin);
+      double inflation = 0.0;
+      if (node.piece) {
+        beat();
+        detection_ = detector.detect(at->above.submesh, body.volume_M);
+        inflation = detection_.inflation;
+        removeMissedByHull(body, request.mesh.mesh_M(), detection_);
+        addCandidates(*node.piece, request.contact.allows(*node.piece));
+      } else if (const auto met = trianglesMet(body.volume_M, at->above)) {
+        walk.goBelow(node.below, *met);
+        continue;
+      }
+      result_.margin = std::max(result_.margin, body.volume_M.margin + inflation);
+      result_.volumes_M.push_back(body.volume_M);
+    }
   }
+  test(request);
+  return result_;
+}
+
+void SweepChecker::clear(size_t pieces) {
+  result_.clear();
+  for (std::vector<TriangleSet>* const of_pieces : {&candidates_, &allowed_}) {
+    of_pieces->resize(pieces);
+    for (TriangleSet& candidates : *of_pieces) candidates.clear();
+  }
+}
+
+void SweepChecker::addCandidates(size_t piece, bool allowed) {
+  unite((allowed ? allowed_ : candidates_)[piece], detection_.triangles);
+  unite(allowed ? result_.allowed.triangles : result_.triangles, detection_.triangles);
+}
+
+// Tests the candidates, and which pieces are inside.
+void SweepChecker::test(const SweepRequest& request) {
   result_.fine = request.options.fine;
   result_.not_ruled_out = result_.triangles;
   touched_.assign(candidates_.size(), false);
@@ -127,30 +162,6 @@ SweepResult& SweepChecker::check(Detector& detector, const SweepRequest& request
   if (request.options.fine && !result_.allowed.triangles.empty()) narrowAllowed(request);
   keepSides(request);
   if (!result_.unintendedContact()) findSides(request);
-  return result_;
-}
-
-// Planes decide about the boxes; the detector, which costs more for each triangle that it names, about the pieces.
-void SweepChecker::sweep(Detector& detector, const SweepRequest& request, const Motion& motion_M) {
-  const double margin = request.options.margin + request.mesh.spread();
-  TreeWalk<Around> walk({request.mesh.mesh_M(), 0});
-  while (const auto at = walk.next()) {
-    const Tool::Node& node = request.tool.tree()[at->node];
-    const SweptBody body = sweptBody(node.shape_T, motion_M, request.options.volume, margin);
-    double inflation = 0.0;
-    if (node.piece) {
-      detect(detector, at->above.submesh, body, detection_);
-      inflation = detection_.inflation;
-      const bool allowed = request.contact.allows(*node.piece);
-      unite((allowed ? allowed_ : candidates_)[*node.piece], detection_.triangles);
-      unite(allowed ? result_.allowed.triangles : result_.triangles, detection_.triangles);
-    } else if (const auto met = trianglesMet(body.volume_M, at->above)) {
-      walk.goBelow(node.below, *met);
-      continue;
-    }
-    result_.margin = std::max(result_.margin, body.volume_M.margin + inflation);
-    result_.volumes_M.push_back(body.volume_M);
-  }
 }
 
 std::optional<SweepChecker::Around> SweepChecker::trianglesMet(const SweptVolume& box_M, const Around& above) {

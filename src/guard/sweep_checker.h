@@ -48,8 +48,10 @@ class SweepChecker {
     size_t depth;
   };
 
-  void sweep(Detector& detector, const SweepRequest& request, const Motion& motion_M);
+  void clear(size_t pieces);
   std::optional<Around> trianglesMet(const SweptVolume& box_M, const Around& above);
+  void addCandidates(size_t piece, bool allowed);
+  void test(const SweepRequest& request);
   void narrow(const SweepRequest& request);
   void narrowAllowed(const SweepRequest& request);
   void keepSides(const SweepRequest& request);

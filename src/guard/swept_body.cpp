@@ -50,19 +50,17 @@ bool missedByHull(const ConvexShape& shape_T, const Motion& motion_M, const Movi
   return distanceExceeds(hull, prism, margin, guess_M);
 }
 
-bool HullFilter::misses(std::uint32_t triangle, double growth) const {
+bool misses(const SweptBody& body, const TriangleMesh& mesh_M, std::uint32_t triangle, double growth) {
   beat();
-  return missedByHull(*body_.shape_T, body_.motion_M, mesh_M_.triangle(triangle), body_.volume_M.margin + growth);
+  return missedByHull(*body.shape_T, body.motion_M, MovingMesh(mesh_M).triangle(triangle),
+                      body.volume_M.margin + growth);
 }
 
-void detect(Detector& detector, const Submesh& submesh, const SweptBody& body, Detection& detection) {
-  beat();
-  detection = detector.detect(submesh, body.volume_M);
-  const HullFilter hull(body, submesh.mesh_M(), detection.inflation);
-  if (!hull.filters()) return;
+void removeMissedByHull(const SweptBody& body, const TriangleMesh& mesh_M, Detection& detection) {
+  if (body.kind != VolumeKind::kHull) return;
   TriangleSet& triangles = detection.triangles;
-  const auto isLeftOut = [&](std::uint32_t triangle) { return hull.leavesOut(triangle); };
-  triangles.erase(std::remove_if(triangles.begin(), triangles.end(), isLeftOut), triangles.end());
+  const auto is_missed = [&](std::uint32_t triangle) { return misses(body, mesh_M, triangle, detection.inflation); };
+  triangles.erase(std::remove_if(triangles.begin(), triangles.end(), is_missed), triangles.end());
 }
 
 }  // namespace sweep_guard_core

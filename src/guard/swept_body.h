@@ -23,33 +23,13 @@ struct SweptBody {
 /// @param margin  the body is grown by this [m], >= 0
 SweptBody sweptBody(const ConvexShape& shape_T, const Motion& motion_M, VolumeKind kind, double margin);
 
-/// Finds the triangles that the volume meets. For kind `hull`, leaves out the triangles that are proven to miss the
-/// hull of the body at both ends of the motion, before and after its mesh_translation, grown by the volume's margin.
-/// @param[out] detection  overwritten
-/// @throws DeviceError if the detector fails
-void detect(Detector& detector, const Submesh& submesh, const SweptBody& body, Detection& detection);
+/// Returns whether a body is proven to miss a triangle of a mesh at rest by the margin of its volume and a growth [m], whatever
+/// the volume: to miss the hull of the body at both ends of the motion, before and after its mesh_translation.
+bool misses(const SweptBody& body, const TriangleMesh& mesh_M, std::uint32_t triangle, double growth = 0.0);
 
-/// Tells which of the triangles that a detector names for a swept body the body misses, on a mesh at rest.
-class HullFilter {
- public:
-  /// @param body, mesh_M  must outlive this
-  /// @param inflation     of the detection [m]
-  HullFilter(const SweptBody& body, const TriangleMesh& mesh_M, double inflation)
-      : body_(body), mesh_M_(mesh_M), inflation_(inflation) {}
-
-  bool filters() const { return body_.kind == VolumeKind::kHull; }  ///< otherwise the volume decides alone
-  /// Returns whether the volume is `hull` and the body is proven to miss a triangle by the margin and the inflation.
-  bool leavesOut(std::uint32_t triangle) const { return filters() && misses(triangle, inflation_); }
-  /// Returns whether the body is proven to miss a triangle by its margin, whatever the volume.
-  bool bodyMisses(std::uint32_t triangle) const { return misses(triangle, 0.0); }
-
- private:
-  bool misses(std::uint32_t triangle, double growth) const;
-
-  const SweptBody& body_;
-  MovingMesh mesh_M_;
-  double inflation_;
-};
+/// If the volume is `hull`, removes what the body misses() by the inflation from what a detector found; otherwise the volume
+/// decides alone.
+void removeMissedByHull(const SweptBody& body, const TriangleMesh& mesh_M, Detection& detection);
 
 /// Returns whether a direction proves that a body is farther than `margin` [m] from a triangle: from the hull of the
 /// triangle before and after its motion, with the body anywhere in the hull of its motion's two poses before and after

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 
+#include "common/number_text.h"
 #include "guard/rigid_shape.h"
 #include "sweep_guard/common/error.h"
 
@@ -54,7 +55,7 @@ Eigen::Vector3d largestOf(const TriangleMesh& mesh_M) {
 
 void requireShape(const Workpiece& attached, const RigidFit& fit, double rounding) {
   if (fit.deviation <= WorkpieceStore::rigidWithin(attached.mesh_M.rounding() + rounding)) return;
-  throw attachedAnd(attached.id, "it deforms by " + std::to_string(fit.deviation) + " m");
+  throw attachedAnd(attached.id, "it deforms by " + shortText(fit.deviation) + " m");
 }
 
 }  // namespace

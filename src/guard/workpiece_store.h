@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/guarded_by.h"
 #include "common/pool.h"
-#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/guard/workpiece.h"
 
 namespace sweep_guard_core {

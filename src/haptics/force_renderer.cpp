@@ -8,8 +8,8 @@
 namespace sweep_guard_core {
 namespace {
 
-double fade(Duration silent, const ForceLimits& limits) {
-  return std::clamp(1.0 - toSeconds(silent - limits.silence) / toSeconds(limits.ramp), 0.0, 1.0);
+double fade(Duration silent, const ForceOptions& options) {
+  return std::clamp(1.0 - toSeconds(silent - options.silence) / toSeconds(options.ramp), 0.0, 1.0);
 }
 
 constexpr double kVelocityTime = 0.01;  // time constant of the low-pass [s]
@@ -44,24 +44,24 @@ void requireUsable(const ForceOptions& options) {
 
 }  // namespace
 
-ForcePermission decideForce(const PermissionInputs& inputs, const std::optional<Timestamps>& device, const Instant& now,
-                            const ForceLimits& limits) {
+ForcePermission decideForce(const MotionInputs& inputs, const std::optional<Timestamps>& device, const Instant& now,
+                            const ForceOptions& options) {
   if (!inputs.warning) return {0.0, PermissionCause::kNoWarning};
-  if (now.steady - inputs.warning->received > limits.warning_silence) return {0.0, PermissionCause::kWarningSilent};
+  if (now.steady - inputs.warning->received > options.warning_silence) return {0.0, PermissionCause::kWarningSilent};
   if (inputs.warning->level == WarningLevel::kUnknown) return {0.0, PermissionCause::kUnknown};
   if (!inputs.pose) return {0.0, PermissionCause::kNoPose};
-  if (now.stamp - inputs.pose->stamp > limits.pose_age) return {0.0, PermissionCause::kOldPose};
+  if (now.stamp - inputs.pose->timestamps.stamp > options.pose_age) return {0.0, PermissionCause::kOldPose};
   if (!inputs.planes) return {0.0, PermissionCause::kNoPlanes};
   if (now.stamp > inputs.planes->valid_until) return {0.0, PermissionCause::kPlanesExpired};
   if (!inputs.planes->complete) return {0.0, PermissionCause::kIncomplete};
-  if (!inputs.planes->tool_known) return {0.0, PermissionCause::kNoTool};
+  if (!inputs.toolIsKnown()) return {0.0, PermissionCause::kNoTool};
 
   ForcePermission permission{1.0, PermissionCause::kGuarded};
   const auto fadeWith = [&](const Timestamps& input, PermissionCause cause) {
-    const double gain = fade(now.steady - input.received, limits);
+    const double gain = fade(now.steady - input.received, options);
     if (gain < permission.gain) permission = {gain, cause};
   };
-  fadeWith(*inputs.pose, PermissionCause::kPoseSilent);
+  fadeWith(inputs.pose->timestamps, PermissionCause::kPoseSilent);
   fadeWith(inputs.planes->timestamps, PermissionCause::kPlanesSilent);
   if (device) fadeWith(*device, PermissionCause::kDeviceSilent);
   return permission;
@@ -81,7 +81,7 @@ RenderedForce ForceRenderer::render(const ForceInputs& inputs, const DeviceWrenc
   const double period = toSeconds(rendered_ ? std::min(now.steady - *rendered_, 2 * options_.period) : options_.period);
   rendered_ = now.steady;
   RenderedForce rendered;
-  rendered.permission = decideForce(permissionInputs(inputs.known), inputs.device, now, options_.limits);
+  rendered.permission = decideForce(inputs.known, inputs.device, now, options_);
   const DeviceWrench before = faded_ ? unfaded_ : sent;
   if (inputs.known.pose) {
     measureVelocity(*inputs.known.pose);
@@ -122,7 +122,7 @@ void ForceRenderer::measureVelocity(const MotionInputs::ToolPose& pose) {
 
 void ForceRenderer::measureDelay(const Timestamps& pose, const Instant& now) {
   const double kept = std::exp(-toSeconds(options_.period) / kDelayTime);
-  const Duration counted = std::min(age(pose, now), options_.limits.pose_age);  // an older pose makes no force
+  const Duration counted = std::min(age(pose, now), options_.pose_age);  // an older pose makes no force
   delay_ = std::max(toSeconds(counted), kept * delay_);
 }
 

@@ -14,28 +14,28 @@ double largestEnergy(const std::vector<PassivityController>& axes, size_t first)
 
 }  // namespace
 
-double coningBound(double angle, double interval, const TurnLimits& limits) {
-  const double longest = limits.max_rate * interval;
+double coningBound(double angle, double interval, const HandLimits& limits) {
+  const double longest = limits.max_turn_rate * interval;
   if (longest + angle >= 2.0 * M_PI) return longest + angle;
-  const double length = std::max(angle, std::min(longest, angle + limits.max_acceleration * interval * interval / 2.0));
-  const double rate = interval > 0.0 ? std::min(limits.max_rate, angle / interval + limits.max_acceleration * interval)
-                                     : limits.max_rate;
-  const double area =
-      std::min(rate * limits.max_acceleration * interval * interval * interval / 12.0, length * length / (2.0 * M_PI));
+  const double length =
+      std::max(angle, std::min(longest, angle + limits.max_turn_acceleration * interval * interval / 2.0));
+  const double rate = interval > 0.0
+                          ? std::min(limits.max_turn_rate, angle / interval + limits.max_turn_acceleration * interval)
+                          : limits.max_turn_rate;
+  const double area = std::min(rate * limits.max_turn_acceleration * interval * interval * interval / 12.0,
+                               length * length / (2.0 * M_PI));
   return (1.0 + length / 2.0) * area;
 }
 
-PassiveDevice::PassiveDevice(const ForceOptions& force, const Options& options)
-    : turn_limits_{options.max_turn_rate, options.max_turn_acceleration} {
-  const bool possible = options.max_speed > 0.0 && options.max_acceleration > 0.0 && options.max_turn_rate > 0.0 &&
-                        options.max_turn_acceleration > 0.0;
+PassiveDevice::PassiveDevice(const ForceOptions& force, const HandLimits& limits) : limits_(limits) {
+  const bool possible = limits.max_speed > 0.0 && limits.max_acceleration > 0.0 && limits.max_turn_rate > 0.0 &&
+                        limits.max_turn_acceleration > 0.0;
   if (!possible) throw InvalidInput("max_speed, max_turn_rate and accelerations of the hand: must be > 0");
-  axes_.assign(kTranslation, PassivityController({force.max_force, options.max_speed, options.max_acceleration,
+  axes_.assign(kTranslation, PassivityController({force.max_force, limits.max_speed, limits.max_acceleration,
                                                   force.period, force.output_delay}));
   if (!(force.max_torque > 0.0)) return;
-  axes_.resize(2 * kTranslation,
-               PassivityController({force.max_torque, options.max_turn_rate, options.max_turn_acceleration,
-                                    force.period, force.output_delay}));
+  axes_.resize(2 * kTranslation, PassivityController({force.max_torque, limits.max_turn_rate,
+                                                      limits.max_turn_acceleration, force.period, force.output_delay}));
 }
 
 void PassiveDevice::observe(const Hand& hand, const Instant& now) {
@@ -47,7 +47,7 @@ void PassiveDevice::observe(const Hand& hand, const Instant& now) {
       hand.R_FD.transpose() * (turn.angle() * turn.axis());
   const SteadyTime measured = now.steady - age(hand.timestamps, now);
   const double interval = newest_ ? std::max(0.0, toSeconds(measured - measured_)) : 0.0;
-  const double doubt = coningBound(turn.angle(), interval, turn_limits_);
+  const double doubt = coningBound(turn.angle(), interval, limits_);
   for (size_t i = 0; i < axes_.size(); ++i) {
     axes_[i].moved(motion_D[static_cast<Eigen::Index>(i)], measured, i < kTranslation ? 0.0 : doubt);
   }

@@ -16,7 +16,7 @@ ForceLaw lawOf(const Workpiece& workpiece, const InteractionOptions& options) {
 }
 
 Eigen::Isometry3d bodyInTool(const PoseWithFrames& pose, size_t body) {
-  if (pose.bodies.empty()) return Eigen::Isometry3d::Identity();
+  if (pose.state.positions.empty()) return Eigen::Isometry3d::Identity();  // without rounding
   return pose.X_WT.inverse() * pose.bodies[body].X_WB;
 }
 
@@ -58,7 +58,7 @@ void InteractionFinder::ToolMotion::moveTo(const PoseWithFrames& pose, const std
                                            const Eigen::Isometry3d& X_WM, size_t bodies) {
   std::swap(before_, now_);
   now_.X_MB.clear();
-  for (size_t i = 0; i < bodies; ++i) now_.X_MB.push_back(X_WM.inverse() * pose.body(i).X_WB);
+  for (size_t i = 0; i < bodies; ++i) now_.X_MB.push_back(X_WM.inverse() * pose.bodies[i].X_WB);
   now_.frame = frame;
   now_.stamp = pose.stamp;
   const Duration since = now_.stamp - before_.stamp;
@@ -74,7 +74,7 @@ Eigen::Vector3d InteractionFinder::ToolMotion::velocity_B(size_t body, const Eig
 
 void InteractionFinder::find(const PoseWithFrames& pose, const Workpieces& workpieces,
                              const InteractionOptions& options, Interaction& interaction) {
-  assert(pose.bodies.empty() ? bodies_.size() == 1 : bodies_.size() == pose.bodies.size());
+  assert(bodies_.size() == pose.bodies.size());
   interaction.objects.clear();
   interaction.unplaced.clear();
   interaction.total = Wrench();

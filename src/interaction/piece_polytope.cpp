@@ -17,15 +17,15 @@ constexpr double kThin = 1e-9;  // of the radius: less thick is flat
 
 using HalfSpaces = std::vector<HalfSpace>;
 
-HalfSpaces prism(const ConvexShape::Cylinder& cylinder, double padding, int sides) {
+HalfSpaces prism(const ConvexShape& shape_T, const ConvexShape::Cylinder& cylinder, int sides) {
   const double angle = 2.0 * kPi / sides;
+  const double padding = shape_T.padding();
   const double circumradius = (cylinder.radius + padding) * std::sqrt(angle / std::sin(angle));
-  const Eigen::Matrix3d& R_TC = cylinder.X_TC.linear();
-  const Eigen::Vector3d& p_T = cylinder.X_TC.translation();
+  const Eigen::Isometry3d X_TS = shape_T.X_TS();
   HalfSpaces faces;
-  const auto add = [&](const Eigen::Vector3d& normal_C, double offset) {
-    const Eigen::Vector3d normal_T = R_TC * normal_C;
-    faces.emplace_back(normal_T, offset + normal_T.dot(p_T));
+  const auto add = [&](const Eigen::Vector3d& normal_S, double offset) {
+    const Eigen::Vector3d normal_T = X_TS.linear() * normal_S;
+    faces.emplace_back(normal_T, offset + normal_T.dot(X_TS.translation()));
   };
   add(Eigen::Vector3d::UnitZ(), padding);
   add(-Eigen::Vector3d::UnitZ(), cylinder.length + padding);
@@ -36,13 +36,14 @@ HalfSpaces prism(const ConvexShape::Cylinder& cylinder, double padding, int side
   return faces;
 }
 
-HalfSpaces sidesOf(const ConvexShape::CenteredBox& box, double padding) {
+HalfSpaces sidesOf(const ConvexShape& shape_T, const ConvexShape::Box& half_extents) {
+  const Eigen::Isometry3d X_TS = shape_T.X_TS();
   HalfSpaces faces;
   for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d normal_T = box.X_TC.linear().col(i);
-    const double at = normal_T.dot(box.X_TC.translation());
-    faces.emplace_back(normal_T, at + box.half_extents[i] + padding);
-    faces.emplace_back(-normal_T, -at + box.half_extents[i] + padding);
+    const Eigen::Vector3d normal_T = X_TS.linear().col(i);
+    const double at = normal_T.dot(X_TS.translation());
+    faces.emplace_back(normal_T, at + half_extents[i] + shape_T.padding());
+    faces.emplace_back(-normal_T, -at + half_extents[i] + shape_T.padding());
   }
   return faces;
 }
@@ -110,10 +111,10 @@ bool isPointOrSegment(const ConvexShape& shape_T) {
 
 HalfSpaces facesOf(const ConvexShape& shape_T) {
   const TriangleMesh& mesh_T = shape_T.mesh_T();
-  if (const auto cylinder = shape_T.asCylinder()) {
-    return prism(*cylinder, shape_T.padding(), static_cast<int>(mesh_T.vertexCount()) / 2 - 1);
+  if (const auto* const cylinder = shape_T.asCylinder()) {
+    return prism(shape_T, *cylinder, static_cast<int>(mesh_T.vertexCount()) / 2 - 1);
   }
-  if (const auto box = shape_T.asBox()) return sidesOf(*box, shape_T.padding());
+  if (const auto* const box = shape_T.asBox()) return sidesOf(shape_T, *box);
   if (isPointOrSegment(shape_T)) return roundFaces(shape_T);
   std::vector<Eigen::Vector3d> points;
   for (size_t i = 0; i < mesh_T.vertexCount(); ++i) points.push_back(mesh_T.vertex(i));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/number_text.h"
 #include "sweep_guard/common/unwound.h"
 #include "sweep_guard/geometry/motion.h"
 
@@ -60,7 +61,7 @@ void JointTimeline::check(const std::string& publisher, Time stamp, const std::v
     if (!expects(positions[i].variable)) continue;
     const std::string& name = tree_.variables()[positions[i].variable].name;
     if (!(std::abs(positions[i].value) <= kMaxPosition)) {
-      throw InvalidInput("joint '" + name + "' is at " + std::to_string(positions[i].value) +
+      throw InvalidInput("joint '" + name + "' is at " + shortText(positions[i].value) +
                          ", but must be within 1e4 rad or m");
     }
     for (size_t k = 0; k < i; ++k) {

@@ -27,6 +27,12 @@ void check(const TreeLink& link, size_t index, size_t variables) {
   if (!(std::abs(link.axis_J.norm() - 1.0) <= kUnitTolerance)) refuse("the axis of its joint is not unit");
 }
 
+bool slides(size_t variable, const JointVariable& joint, const std::vector<TreeLink>& links) {
+  return std::any_of(links.begin(), links.end(), [&](const TreeLink& link) {
+    return link.type == JointType::kPrismatic && link.variable == variable && link.joint == joint.name;
+  });
+}
+
 Eigen::Isometry3d X_JL(const TreeLink& link, double position) {
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
   if (link.type == JointType::kRevolute) X.linear() = Eigen::AngleAxisd(position, link.axis_J).toRotationMatrix();
@@ -45,13 +51,7 @@ KinematicTree::KinematicTree(std::vector<JointVariable> variables, std::vector<T
     const size_t body_above = link.parent == TreeLink::kRoot ? TreeLink::kRoot : bodies_[link.parent];
     bodies_.push_back(link.moves() ? i : body_above);
   }
-}
-
-bool KinematicTree::turns(size_t variable) const {
-  const auto slides = [&](const TreeLink& link) {
-    return link.type == JointType::kPrismatic && link.variable == variable && link.joint == variables_[variable].name;
-  };
-  return std::none_of(links_.begin(), links_.end(), slides);
+  for (size_t i = 0; i < variables_.size(); ++i) variables_[i].turns = !slides(i, variables_[i], links_);
 }
 
 std::vector<double> KinematicTree::nearestToZero() const {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "sweep_guard/common/mutex.h"
+#include "common/guarded_by.h"
 #include "sweep_guard/common/time.h"
 
 namespace sweep_guard_core {
@@ -20,12 +20,14 @@ class InputRecord {
     SteadyTime error_time;             ///< time of the last error
     std::string last_warning = {};     ///< of an anomaly without consequences; empty: none
     SteadyTime warning_time = {};      ///< time of the last warning
+    std::string lacking = {};          ///< why what comes since is no complete input; empty: it is
   };
 
   void received(const Timestamps& message) {
     const Lock lock(mutex_);
     ++summary_.received;
     summary_.newest = message;
+    summary_.lacking.clear();
   }
 
   /// @param refused  false if the error does not refuse a message
@@ -40,6 +42,11 @@ class InputRecord {
     const Lock lock(mutex_);
     summary_.last_warning = warning;
     summary_.warning_time = std::chrono::steady_clock::now();
+  }
+
+  void lacks(const std::string& what) {
+    const Lock lock(mutex_);
+    summary_.lacking = what;
   }
 
   Summary summary() const {

@@ -18,42 +18,37 @@ bool isTooOld(const WarningInputs::Frame& frame, const Instant& now, Duration po
   return stale(frame.newest, now, pose_timeout + std::min(frame.period, pose_timeout));
 }
 
+// Before there are two transforms, the period is not known: as long as it may be.
+WarningInputs::Frame& findFrame(std::vector<WarningInputs::Frame>& frames, const std::string& name,
+                                const Timestamps& newest) {
+  const auto is_before = [](const WarningInputs::Frame& frame, const std::string& key) { return frame.name < key; };
+  const auto place = std::lower_bound(frames.begin(), frames.end(), name, is_before);
+  if (place != frames.end() && place->name == name) return *place;
+  return *frames.insert(place, {name, newest, Duration::max(), {}, {}, {}});
+}
+
 }  // namespace
 
-void LateFrames::add(const std::string& name, Time stamp, const Instant& now, Duration pose_timeout) {
-  WarningInputs::Frame& frame = find(name, {stamp, now.steady});
+void addTransform(std::vector<WarningInputs::Frame>& frames, const std::string& name, Time stamp, const Instant& now,
+                  Duration pose_timeout) {
+  WarningInputs::Frame& frame = findFrame(frames, name, {stamp, now.steady});
   if (stamp == frame.newest.stamp) return;
   if (stamp < frame.newest.stamp) {
-    intervals_.erase(name);
-    frame = {name, {stamp, now.steady}, Duration::max(), {}, {}};
+    frame = {name, {stamp, now.steady}, Duration::max(), {}, {}, {}};
     return;
   }
   if (isTooOld(frame, now, pose_timeout)) {
     frame.late = age(frame.newest, now);
     frame.found = now.steady;
   }
-  std::vector<Duration>& intervals = intervals_[name];
-  if (intervals.size() == kKeptIntervals) intervals.erase(intervals.begin());
-  intervals.push_back(stamp - frame.newest.stamp);
-  frame.period = median(intervals);
+  if (frame.intervals.size() == kKeptIntervals) frame.intervals.erase(frame.intervals.begin());
+  frame.intervals.push_back(stamp - frame.newest.stamp);
+  frame.period = median(frame.intervals);
   frame.newest = {stamp, now.steady};
 }
 
-// Before there are two transforms, the period is not known: as long as it may be.
-WarningInputs::Frame& LateFrames::find(const std::string& name, const Timestamps& newest) {
-  auto& frames = inputs_.frames;
-  const auto is_before = [](const WarningInputs::Frame& frame, const std::string& key) { return frame.name < key; };
-  const auto place = std::lower_bound(frames.begin(), frames.end(), name, is_before);
-  if (place != frames.end() && place->name == name) return *place;
-  return *frames.insert(place, {name, newest, Duration::max(), {}, {}});
-}
-
-void LateFrames::keepOnly(const std::set<std::string>& names) {
-  auto& frames = inputs_.frames;
+void keepOnly(const std::set<std::string>& names, std::vector<WarningInputs::Frame>& frames) {
   const auto is_gone = [&](const WarningInputs::Frame& frame) { return names.count(frame.name) == 0; };
-  for (const WarningInputs::Frame& frame : frames) {
-    if (is_gone(frame)) intervals_.erase(frame.name);
-  }
   frames.erase(std::remove_if(frames.begin(), frames.end(), is_gone), frames.end());
 }
 

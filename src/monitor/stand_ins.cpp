@@ -7,43 +7,45 @@
 
 namespace sweep_guard_core {
 
-void StandIns::update(const Workpieces& before, const Workpieces& newest, std::optional<SteadyTime> now) {
+namespace {
+
+template <typename Predicate>
+void erase(std::vector<ReplacedTriangles>& replaced, const Predicate& predicate) {
+  replaced.erase(std::remove_if(replaced.begin(), replaced.end(), predicate), replaced.end());
+}
+
+// Triangles that come back and are replaced again count from then on.
+void replace(ReplacedTriangles old, std::vector<ReplacedTriangles>& replaced) {
+  erase(replaced,
+        [&](const ReplacedTriangles& one) { return one.id == old.id && one.triangles.lock() == old.triangles.lock(); });
+  replaced.push_back(std::move(old));
+}
+
+}  // namespace
+
+void updateStandIns(const Workpieces& before, const Workpieces& newest, std::optional<SteadyTime> now,
+                    std::vector<ReplacedTriangles>& replaced) {
   auto next = newest.begin();
   for (const auto& old : before) {
     next = std::find_if(next, newest.end(), [&](const auto& one) { return one->id >= old->id; });
     if (next == newest.end() || (*next)->id != old->id || (*next)->frame != old->frame) {
-      forget(old->id);
+      erase(replaced, [&](const ReplacedTriangles& one) { return one.id == old->id; });
     } else if (&(*next)->mesh_M.triangles() != &old->mesh_M.triangles()) {
-      replace({old->id, old->mesh_M.sharedTriangles(), now.value_or((*next)->received)});
+      replace({old->id, old->mesh_M.sharedTriangles(), now.value_or((*next)->received)}, replaced);
     }
   }
-  const auto is_unused = [](const Replaced& one) { return one.triangles.expired(); };
-  replaced_.erase(std::remove_if(replaced_.begin(), replaced_.end(), is_unused), replaced_.end());
+  erase(replaced, [](const ReplacedTriangles& one) { return one.triangles.expired(); });
 }
 
-// Triangles that come back and are replaced again count from then on.
-void StandIns::replace(Replaced old) {
-  const auto same = [&](const Replaced& one) {
-    return one.id == old.id && one.triangles.lock() == old.triangles.lock();
-  };
-  const auto known = std::find_if(replaced_.begin(), replaced_.end(), same);
-  if (known != replaced_.end()) replaced_.erase(known);
-  replaced_.push_back(std::move(old));
-}
-
-std::optional<SteadyTime> StandIns::until(const Workpieces& tested, const Workpiece& newest) const {
+std::optional<SteadyTime> standInUntil(const std::vector<ReplacedTriangles>& replaced, const Workpieces& tested,
+                                       const Workpiece& newest) {
   const Workpiece* const one = findWorkpiece(tested, newest.id);
   if (one == nullptr || one->frame != newest.frame) return std::nullopt;
-  const auto same = [&](const Replaced& old) {
+  const auto same = [&](const ReplacedTriangles& old) {
     return old.id == newest.id && old.triangles.lock().get() == &one->mesh_M.triangles();
   };
-  const auto old = std::find_if(replaced_.begin(), replaced_.end(), same);
-  return old == replaced_.end() ? std::nullopt : std::optional(old->at + kTime);
-}
-
-void StandIns::forget(const std::string& id) {
-  const auto is_of_id = [&](const Replaced& one) { return one.id == id; };
-  replaced_.erase(std::remove_if(replaced_.begin(), replaced_.end(), is_of_id), replaced_.end());
+  const auto old = std::find_if(replaced.begin(), replaced.end(), same);
+  return old == replaced.end() ? std::nullopt : std::optional(old->at + kStandInTime);
 }
 
 }  // namespace sweep_guard_core

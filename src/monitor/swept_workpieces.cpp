@@ -45,7 +45,7 @@ bool holds(const Workpieces& workpieces, const Workpiece& workpiece) {
 }
 
 void SweptWorkpieces::set(const Workpieces& newest, std::optional<SteadyTime> now) {
-  stand_ins_.update(newest_, newest, now);
+  updateStandIns(newest_, newest, now, replaced_);
   newest_ = newest;
   forgetDroppedOfGone();
   updateObjects();
@@ -53,7 +53,7 @@ void SweptWorkpieces::set(const Workpieces& newest, std::optional<SteadyTime> no
 
 bool SweptWorkpieces::allCount(const Workpieces& tested, SteadyTime now) const {
   const auto counts = [&](const auto& workpiece) {
-    return holds(tested, *workpiece) || now <= stand_ins_.until(tested, *workpiece).value_or(SteadyTime::min());
+    return holds(tested, *workpiece) || now <= standInUntil(replaced_, tested, *workpiece).value_or(SteadyTime::min());
   };
   return std::all_of(newest_.begin(), newest_.end(), counts);
 }
@@ -100,7 +100,7 @@ void SweptWorkpieces::updateObjects() {
     object.ages = !workpiece.of_other_tool;
     object.open_edges = workpiece.mesh_M.openEdges();
     object.swept = holds(swept_, workpiece);
-    object.stands_in_until = object.swept ? std::nullopt : stand_ins_.until(swept_, workpiece);
+    object.stands_in_until = object.swept ? std::nullopt : standInUntil(replaced_, swept_, workpiece);
     object.dropped = dropped_.count(workpiece.id) != 0;
   }
 }

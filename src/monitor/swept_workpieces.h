@@ -19,7 +19,7 @@ class SweptWorkpieces {
   explicit SweptWorkpieces(WarningInputs& inputs) : inputs_(inputs) {}
 
   /// @param newest  snapshots of all workpieces, ascending by id
-  /// @param now     as for StandIns::update()
+  /// @param now     as for updateStandIns()
   void set(const Workpieces& newest, std::optional<SteadyTime> now);
   const Workpieces& newest() const { return newest_; }
 
@@ -39,7 +39,7 @@ class SweptWorkpieces {
 
   WarningInputs& inputs_;
   Workpieces newest_;
-  StandIns stand_ins_;
+  std::vector<ReplacedTriangles> replaced_;
   Workpieces swept_;                           // at the newest pose
   std::map<std::string, SteadyTime> dropped_;  // by id: when the newest dropped update was received
 };

@@ -20,26 +20,41 @@ void prepend(Warning& warning, TextPieces message) {
   insertText(warning.text, 0, message);
 }
 
-void describePrediction(Warning& warning) {
-  const auto describe = [&](std::string_view how, const std::string& much, std::string_view within = {},
-                            const std::string& interval = {}) {
-    prepend(warning, {"collision with '", warning.mesh_id, "' ", how, much, within, interval});
-  };
-  if (warning.time_to_collision) return describe("expected in ", inSeconds(*warning.time_to_collision));
-  if (warning.probability == 0.0) return describe("was expected", "");
-  describe("", inPercent(warning.probability), " % probable within ", inSeconds(warning.probability_interval));
+// A time beyond the interval does not explain the level: what is less probable, or was predicted before, does.
+void describePrediction(const WorkpieceLevel& level, const Instant& now, const WarningLimits& limits,
+                        Warning& warning) {
+  const Duration interval = level.level == WarningLevel::kReflex ? limits.reflex : limits.considered;
+  const std::optional<Duration>& time = warning.time_to_collision;
+  const bool beyond = time && *time > interval + limits.tick;
+  const bool held = beyond && level.ended;
+  const bool probable = !held && (time ? beyond : warning.probability > 0.0);
+  const std::string percent = probable ? inPercent(warning.probability) : "";
+  const std::string within = probable ? inSeconds(warning.probability_interval) : "";
+  const std::string ago = held ? inSeconds(now.steady - *level.ended) : "";
+  const std::string when = time ? inSeconds(*time) : "";
+  const std::string_view expected = time ? "expected in " : "was expected";
+  prepend(warning, {"collision with '", warning.mesh_id, "' ", percent, probable ? " % probable within " : "", within,
+                    held ? "was near " : "", ago, held ? " ago" : "", beyond ? ", " : "",
+                    probable && !time ? std::string_view() : expected, when});
 }
 
-void describeContact(Warning& warning, bool inside, Duration since) {
+std::string_view linkOf(const WarningInputs& inputs, const std::optional<size_t>& piece) {
+  return piece && *piece < inputs.links.size() ? std::string_view(inputs.links[*piece]) : std::string_view();
+}
+
+void describeContact(Warning& warning, bool inside, std::string_view link, Duration since) {
   const size_t count = warning.triangles.size();
   const std::string number = count == 0 ? "" : std::to_string(count);
   const std::string_view comma = count == 0 ? "" : ", ";
   const std::string_view noun = count == 0 ? "" : count == 1 ? " triangle" : " triangles";
+  const std::string_view by = link.empty() ? "" : ", by link '";
+  const std::string_view end = link.empty() ? "" : "'";
   if (warning.held_since) {
     const std::string_view how = inside ? "tool was inside '" : "tool touched '";
-    return prepend(warning, {how, warning.mesh_id, "' ", inSeconds(since), " ago", comma, number, noun});
+    return prepend(warning, {how, warning.mesh_id, "' ", inSeconds(since), " ago", comma, number, noun, by, link, end});
   }
-  prepend(warning, {inside ? "tool is inside '" : "tool meets '", warning.mesh_id, "'", comma, number, noun});
+  prepend(warning,
+          {inside ? "tool is inside '" : "tool meets '", warning.mesh_id, "'", comma, number, noun, by, link, end});
 }
 
 void setPrediction(const PredictedContact& predicted, const Instant& now, const WarningLimits& limits,
@@ -64,10 +79,11 @@ void warn(const WarningInputs& inputs, const Instant& now, const WarningLimits& 
   warning.tool_piece = strongest.contact->tool_piece;
   warning.triangles = strongest.contact->triangles;
   if (warning.acknowledged) prepend(warning, {"acknowledged"});
-  describePrediction(warning);
+  describePrediction(strongest, now, limits, warning);
 }
 
-void setContact(const WarningInputs::Contact& contact, const Instant& now, Warning& warning) {
+void setContact(const WarningInputs& inputs, const Instant& now, Warning& warning) {
+  const WarningInputs::Contact& contact = *inputs.contact;
   const Duration since = now.steady - contact.found;
   warning.level = WarningLevel::kContact;
   warning.acknowledged = false;
@@ -75,7 +91,7 @@ void setContact(const WarningInputs::Contact& contact, const Instant& now, Warni
   warning.mesh_id = contact.id;
   warning.triangles = contact.triangles;
   warning.tool_piece = contact.tool_piece;
-  describeContact(warning, contact.inside, since);
+  describeContact(warning, contact.inside, linkOf(inputs, contact.tool_piece), since);
 }
 
 void describeIntended(const WarningInputs& inputs, Warning& warning) {
@@ -126,9 +142,9 @@ void computeWarning(const WarningInputs& inputs, const Instant& now, const Warni
   warning.covered_until = inputs.covered_until;
   const size_t length = warning.text.size();
   warn(inputs, now, limits, warning);
-  if (inputs.contact && (inputs.contact->lasting || now.steady - inputs.contact->found <= limits.hold_time)) {
+  if (inputs.contact && (inputs.contact->lasting || limits.hold(now.steady - inputs.contact->found))) {
     warning.text.erase(0, warning.text.size() - length);
-    setContact(*inputs.contact, now, warning);
+    setContact(inputs, now, warning);
   }
   describeIntended(inputs, warning);
   insertText(warning.text, 0, {styleOf(warning.level).name, warning.text.empty() ? "" : ": "});

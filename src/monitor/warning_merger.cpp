@@ -38,19 +38,19 @@ std::string WarningMerger::silence(size_t guard, const Instant& now) const {
   const Duration since = now.steady - newest->received.steady;
   const Duration left = newest->valid_until - now.stamp;
   if (since > timeout_ || left < Duration::zero()) {
-    const Duration lag = newest->received.stamp - (newest->valid_until - kValid);
+    const Duration lag = newest->received.stamp - (newest->valid_until - kWarningValid);
     return lag > kMaxLag ? "newest warning came " + inSeconds(lag) + " late, or clocks differ"
                          : "silent for " + inSeconds(since);
   }
-  if (left > kValid + kMaxLead) return "warning is " + inSeconds(left - kValid) + " ahead: clocks differ";
+  if (left > kWarningValid + kMaxLead) return "warning is " + inSeconds(left - kWarningValid) + " ahead: clocks differ";
   return {};
 }
 
-MergedWarning WarningMerger::merged(const Instant& now) const {
-  MergedWarning all;
+HeardWarning WarningMerger::merged(const Instant& now) const {
+  HeardWarning all;
   all.level = WarningLevel::kClear;
   all.covered_until = Time::max();
-  all.valid_until = now.stamp + kValid;
+  all.valid_until = now.stamp + kWarningValid;
   std::string text;
   bool any_silent = false;
   for (size_t guard = 0; guard < guards_.size(); ++guard) {
@@ -74,7 +74,7 @@ MergedWarning WarningMerger::merged(const Instant& now) const {
   return all;
 }
 
-void WarningMerger::addTo(MergedWarning& all, size_t guard) const {
+void WarningMerger::addTo(HeardWarning& all, size_t guard) const {
   const HeardWarning& warning = *newest_[guard];
   all.reasons |= warning.reasons;
   all.time_to_collision = earlier(all.time_to_collision, warning.time_to_collision);

@@ -3,9 +3,10 @@
 #include <algorithm>
 
 #include "monitor/faults.h"
-#include "monitor/late_frames.h"
 #include "monitor/swept_workpieces.h"
 #include "monitor/workpiece_warnings.h"
+#include "sweep_guard/common/printable.h"
+#include "sweep_guard/geometry/tool.h"
 
 namespace sweep_guard_core {
 
@@ -17,7 +18,6 @@ WarningMonitor::WarningMonitor(const WarningLimits& limits, std::function<void()
       hung_(std::move(hung)),
       limits_(limits),
       faults_(std::make_unique<Faults>(inputs_)),
-      late_frames_(std::make_unique<LateFrames>(inputs_)),
       workpieces_(std::make_unique<SweptWorkpieces>(inputs_)),
       warnings_(std::make_unique<WorkpieceWarnings>(inputs_, limits_)),
       refused_meshes_(std::make_unique<Refusals>()),
@@ -142,6 +142,13 @@ bool WarningMonitor::isToBeSwept(const Checkpoint& checkpoint) const {
 
 bool WarningMonitor::isToBeSweptLocked(const Checkpoint& checkpoint) const {
   return checkpoint.epoch >= first_epoch_ && !inputs_.disabled_by && !inputs_.ended;
+}
+
+void WarningMonitor::setTool(const Tool& tool) {
+  std::vector<std::string> links;
+  for (const ConvexPiece& piece : tool.pieces()) links.push_back(printable(piece.link));
+  const Lock lock(mutex_);
+  inputs_.links.swap(links);
 }
 
 void WarningMonitor::setLimits(const WarningLimits& limits) {

@@ -52,12 +52,12 @@ std::vector<WarningInputs::OtherTool> WarningMonitor::otherTools() const {
 
 void WarningMonitor::frameHeard(const std::string& frame, Time stamp, const Instant& now) {
   const Lock lock(mutex_);
-  late_frames_->add(frame, stamp, now, limits_.pose_timeout);
+  addTransform(inputs_.frames, frame, stamp, now, limits_.pose_timeout);
 }
 
 void WarningMonitor::setMovingFrames(const std::set<std::string>& frames) {
   const Lock lock(mutex_);
-  late_frames_->keepOnly(frames);
+  keepOnly(frames, inputs_.frames);
 }
 
 void WarningMonitor::fault(Reason reason, const std::string& message) {

@@ -26,7 +26,10 @@ void WarningMonitor::swept(const SweepReport& report, const Timestamps& pose, co
     if (updateContact(report, now, inputs_.contact)) warnings_->endAcknowledgements();
     updateIntended(report, inputs_.intended);
     noteJump(report, now);
-    if (report.backlog > limits_.overload) inputs_.overload = WarningInputs::Backlog{report.backlog, now};
+    if (report.backlog > limits_.overload) {
+      inputs_.overload = now;
+      inputs_.backlog = report.backlog;
+    }
   }
   if (!report.failures.empty()) on_fault_();
 }

@@ -108,10 +108,11 @@ void addOpen(const WarningInputs& inputs, Warning& warning) {
 }
 
 void addLoadReasons(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning) {
-  const auto held = [&](const auto& event) { return event && now.steady - event->found <= limits.hold_time; };
-  if (held(inputs.overload)) {
-    addReason(warning, kOverload,
-              {"overload: poses that waited for ", inSeconds(inputs.overload->waited), " swept at once"});
+  const auto held = [&](const std::optional<WarningInputs::Event>& event) {
+    return event && limits.hold(now.steady - event->found);
+  };
+  if (inputs.overload && limits.hold(now.steady - *inputs.overload)) {
+    addReason(warning, kOverload, {"overload: poses that waited for ", inSeconds(inputs.backlog), " swept at once"});
   }
   if (held(inputs.pose_loss)) addReason(warning, kPoseLoss, {inputs.pose_loss->message});
   if (held(inputs.jump)) addReason(warning, kJump, {inputs.jump->message, ": what was reported may come from that"});

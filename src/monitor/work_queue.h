@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "sweep_guard/common/mutex.h"
+#include "common/guarded_by.h"
 #include "sweep_guard/guard/pose_with_frames.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 

@@ -11,13 +11,13 @@ WorkpieceLevel levelOf(const WarningInputs::WorkpieceWarning& workpiece, const I
   if (workpiece.predicted) {
     const Duration since_end = timeSinceEnd(*workpiece.predicted, now);
     const bool current = since_end == Duration::zero();
-    if (since_end <= limits.hold_time) {
+    if (limits.hold(since_end)) {
       warned.raise(warningLevel(*workpiece.predicted, now, limits), *workpiece.predicted,
                    current ? std::nullopt : std::optional(now.steady - since_end));
     }
   }
   const auto raiseIfHeld = [&](WarningLevel level, const std::optional<WarningInputs::Alarm>& alarm) {
-    if (alarm && now.steady - alarm->ended <= limits.hold_time) warned.raise(level, alarm->contact, alarm->ended);
+    if (alarm && limits.hold(now.steady - alarm->ended)) warned.raise(level, alarm->contact, alarm->ended);
   };
   raiseIfHeld(WarningLevel::kReflex, workpiece.reflex);
   raiseIfHeld(WarningLevel::kConsidered, workpiece.considered);

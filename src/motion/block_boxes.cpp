@@ -37,7 +37,7 @@ Eigen::AlignedBox3f BlockBoxes::of(const ClusterGroup& group) const {
   return box;
 }
 
-Eigen::AlignedBox3f BlockBoxes::of(WholeMesh /*all*/) const {
+Eigen::AlignedBox3f BlockBoxes::of(const MeshOrder& /*mesh*/) const {
   Eigen::AlignedBox3f box;
   for (const Eigen::AlignedBox3f& each : together_) box.extend(each);
   return box;

@@ -17,9 +17,6 @@ struct CenteredBox {
       : center(0.5 * (box.min().cast<double>() + box.max().cast<double>())), half(box.max().cast<double>() - center) {}
 };
 
-/// All clusters of a mesh.
-struct WholeMesh {};
-
 /// Joins the boxes of a mesh's blocks to those of its clusters and groups of clusters.
 class BlockBoxes {
  public:
@@ -28,7 +25,7 @@ class BlockBoxes {
 
   Eigen::AlignedBox3f of(const Cluster& cluster) const;
   Eigen::AlignedBox3f of(const ClusterGroup& group) const;
-  Eigen::AlignedBox3f of(WholeMesh all) const;
+  Eigen::AlignedBox3f of(const MeshOrder& mesh) const;  ///< of all its clusters
 
  private:
   Eigen::AlignedBox3f block(size_t index) const;

@@ -145,7 +145,7 @@ double Facings::maxDisplacement() const {
 }
 
 double Facings::fastest(const PlacedSurface& surface) {
-  return surface.motion->fastest(CenteredBox(surface.boxes.of(WholeMesh())));
+  return surface.motion->fastest(CenteredBox(surface.boxes.of(surface.workpiece->mesh_M.order())));
 }
 
 double Facings::fastest() const {

@@ -17,21 +17,10 @@ void requireUsable(const MotionGuardOptions& options) {
   if (options.dead_time < Duration::zero() || options.time_constant < Duration::zero()) {
     throw InvalidInput("lag of the robot: must be >= 0 s");
   }
-  if (!(options.permission.escape_speed >= 0.0)) throw InvalidInput("escape speed: must be >= 0 m/s");
+  if (!(options.escape_speed >= 0.0)) throw InvalidInput("escape speed: must be >= 0 m/s");
 }
 
 }  // namespace
-
-PermissionInputs permissionInputs(const MotionInputs& inputs) {
-  PermissionInputs permission;
-  permission.warning = inputs.warning;
-  if (inputs.pose) permission.pose = inputs.pose->timestamps;
-  if (!inputs.planes) return permission;
-  const PlaneSet& planes = *inputs.planes;
-  const bool tool_known = inputs.tool && belongsTo(planes, *inputs.tool);
-  permission.planes = PermissionInputs::Planes{planes.timestamps, planes.valid_until, planes.complete, tool_known};
-  return permission;
-}
 
 Twist atPoint(const Twist& twist_W, const Eigen::Vector3d& to_W) {
   return {twist_W.v_W + twist_W.w_W.cross(to_W), twist_W.w_W};
@@ -60,13 +49,6 @@ GuardedMotion MotionGuard::guard(const MotionInputs& inputs, const MotionCommand
   return motion;
 }
 
-PermissionDecision MotionGuard::permission(const MotionInputs& inputs, const Timestamps& command,
-                                           const Instant& now) const {
-  PermissionInputs permission = permissionInputs(inputs);
-  permission.command = command;
-  return decidePermission(permission, now, options_.permission);
-}
-
 void MotionGuard::stop(SteadyTime now) { in_flight_.add({}, now); }
 
 void MotionGuard::limit(const MotionInputs& inputs, const MotionCommand& command, const Instant& now,
@@ -85,7 +67,7 @@ void MotionGuard::limit(const MotionInputs& inputs, const MotionCommand& command
 
   motion.twist_W = motion.decision.permission == Permission::kLimited
                        ? limiter_.limit(command.twist_W, facing_, uncovered, limits)
-                       : escapeVelocity(command.twist_W, facing_, uncovered, limits, options_.permission.escape_speed);
+                       : escapeVelocity(command.twist_W, facing_, uncovered, limits, options_.escape_speed);
   motion.sent_speed = fastestPoint(motion.twist_W, limits.tool_radius);
   motion.scale = motion.commanded_speed > 0.0 ? std::min(1.0, motion.sent_speed / motion.commanded_speed) : 1.0;
   motion.limiting = limiting(command.twist_W, limits);

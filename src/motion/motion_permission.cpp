@@ -5,35 +5,28 @@
 namespace sweep_guard_core {
 namespace {
 
-std::optional<PermissionCause> problemOfCommand(const PermissionInputs& inputs, const Instant& now,
-                                                const PermissionLimits& limits) {
-  if (!inputs.command) return PermissionCause::kNoCommand;
-  if (stale(*inputs.command, now, limits.command_timeout)) return PermissionCause::kOldCommand;
-  return {};
-}
-
-std::optional<PermissionCause> problemOfGuard(const PermissionInputs& inputs, const Instant& now,
-                                              const PermissionLimits& limits) {
+std::optional<PermissionCause> problemOfGuard(const MotionInputs& inputs, const Instant& now,
+                                              const MotionGuardOptions& options) {
   if (!inputs.warning) return PermissionCause::kNoWarning;
-  if (now.steady - inputs.warning->received > limits.silence) return PermissionCause::kWarningSilent;
+  if (now.steady - inputs.warning->received > options.silence) return PermissionCause::kWarningSilent;
   if (inputs.warning->level == WarningLevel::kUnknown) return PermissionCause::kUnknown;
   if (!inputs.pose) return PermissionCause::kNoPose;
-  if (now.steady - inputs.pose->received > limits.silence) return PermissionCause::kPoseSilent;
-  if (now.stamp - inputs.pose->stamp > limits.pose_age) return PermissionCause::kOldPose;
+  if (now.steady - inputs.pose->timestamps.received > options.silence) return PermissionCause::kPoseSilent;
+  if (now.stamp - inputs.pose->timestamps.stamp > options.pose_age) return PermissionCause::kOldPose;
   if (!inputs.planes) return PermissionCause::kNoPlanes;
-  if (now.steady - inputs.planes->timestamps.received > limits.silence) return PermissionCause::kPlanesSilent;
+  if (now.steady - inputs.planes->timestamps.received > options.silence) return PermissionCause::kPlanesSilent;
   if (now.stamp > inputs.planes->valid_until) return PermissionCause::kPlanesExpired;
   if (!inputs.planes->complete) return PermissionCause::kIncomplete;
-  if (!inputs.planes->tool_known) return PermissionCause::kNoTool;
+  if (!inputs.toolIsKnown()) return PermissionCause::kNoTool;
   return {};
 }
 
-bool mayEscape(const PermissionInputs& inputs, const Instant& now, const PermissionLimits& limits) {
-  if (!(limits.escape_speed > 0.0) || !inputs.warning || !inputs.planes || !inputs.pose) return false;
-  if (!inputs.planes->complete || !inputs.planes->tool_known) return false;
+bool mayEscape(const MotionInputs& inputs, const Instant& now, const MotionGuardOptions& options) {
+  if (!(options.escape_speed > 0.0) || !inputs.warning || !inputs.planes || !inputs.pose) return false;
+  if (!inputs.planes->complete || !inputs.toolIsKnown()) return false;
   return (inputs.warning->reasons & kSurfacesMissing) == 0 &&
-         !stale(inputs.planes->timestamps, now, limits.escape_plane_age) &&
-         !stale(*inputs.pose, now, limits.escape_plane_age);
+         !stale(inputs.planes->timestamps, now, options.escape_plane_age) &&
+         !stale(inputs.pose->timestamps, now, options.escape_plane_age);
 }
 
 }  // namespace
@@ -74,11 +67,12 @@ const char* textOf(PermissionCause cause) {
   return "";
 }
 
-PermissionDecision decidePermission(const PermissionInputs& inputs, const Instant& now,
-                                    const PermissionLimits& limits) {
-  if (const auto problem = problemOfCommand(inputs, now, limits)) return {Permission::kStop, *problem};
-  if (const auto problem = problemOfGuard(inputs, now, limits)) {
-    return {mayEscape(inputs, now, limits) ? Permission::kEscape : Permission::kStop, *problem};
+PermissionDecision decidePermission(const MotionInputs& inputs, const std::optional<Timestamps>& command,
+                                    const Instant& now, const MotionGuardOptions& options) {
+  if (!command) return {Permission::kStop, PermissionCause::kNoCommand};
+  if (stale(*command, now, options.command_timeout)) return {Permission::kStop, PermissionCause::kOldCommand};
+  if (const auto problem = problemOfGuard(inputs, now, options)) {
+    return {mayEscape(inputs, now, options) ? Permission::kEscape : Permission::kStop, *problem};
   }
   return {Permission::kLimited, PermissionCause::kGuarded};
 }

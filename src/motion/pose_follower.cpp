@@ -5,15 +5,6 @@
 #include "motion/rotation_vector.h"
 
 namespace sweep_guard_core {
-namespace {
-
-PoseLeash::Options leashOf(const PoseFollower::Options& options) {
-  return {options.max_speed, options.max_turn_rate, options.dead_time, options.time_constant, options.deceleration};
-}
-
-}  // namespace
-
-PoseFollower::PoseFollower(const Options& options) : options_(options), leash_(leashOf(options)) {}
 
 void PoseFollower::begin(const Eigen::Isometry3d& X_WT) {
   end();
@@ -50,7 +41,7 @@ const Eigen::Isometry3d& PoseFollower::hold(bool tool_is_known) {
 }
 
 Eigen::Isometry3d PoseFollower::goalOf(const Eigen::Isometry3d& command_WT) const {
-  if (options_.mode == PoseMode::kAbsolute) return command_WT;
+  if (!incremental_) return command_WT;
   const Eigen::Isometry3d& before_WT = command_WT_ ? *command_WT_ : command_WT;
   Eigen::Isometry3d goal_WT = *sent_WT_;
   goal_WT.translation() += command_WT.translation() - before_WT.translation();
@@ -62,8 +53,8 @@ Twist PoseFollower::towards(const Eigen::Isometry3d& command_WT, Duration period
   assert(begun());
   const Eigen::Isometry3d goal_WT = goalOf(command_WT);
   goal_WT_ = tool_WT_ ? leash_.within(goal_WT) : goal_WT;
-  is_command_ = options_.mode == PoseMode::kAbsolute && goal_WT_.matrix() == command_WT.matrix();
-  const bool moves = options_.mode == PoseMode::kAbsolute || command_WT_;
+  is_command_ = !incremental_ && goal_WT_.matrix() == command_WT.matrix();
+  const bool moves = !incremental_ || command_WT_;
   command_WT_ = command_WT;
   period_ = period;
   wanted_W_ = {};

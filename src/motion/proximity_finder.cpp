@@ -1,6 +1,7 @@
 #include "sweep_guard/motion/proximity_finder.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "common/floating_point.h"
 #include "motion/facing.h"
@@ -13,8 +14,13 @@ constexpr double kNearer = 1e-3;  // share by which a triangle may be nearer tha
 
 }  // namespace
 
-// What waits for its turn while a search runs, and how the surfaces move. Only the latter is kept for the next search.
-struct ProximityFinder::Memory {
+// Keeps its buffers, and how the surfaces move, for the next search.
+class ProximityFinder::Search {
+ public:
+  void run(const ProximityRequest& request, Proximity& proximity);
+  void reset() { facings_.reset(); }
+
+ private:
   enum class Kind : std::uint8_t { kMesh, kGroup, kCluster, kTriangle, kSeparated };
 
   // A part of a mesh before a piece. Of all that wait, the one that may be nearest is next.
@@ -30,21 +36,6 @@ struct ProximityFinder::Memory {
     }
   };
 
-  Facings facings;
-  std::vector<WaitingPart> waiting;  // a heap
-  std::vector<SeparatedTriangle> separated;
-};
-
-// One search.
-class ProximityFinder::Search {
- public:
-  Search(const ProximityRequest& request, Memory& memory, Proximity& proximity);
-  void run();
-
- private:
-  using Kind = Memory::Kind;
-  using WaitingPart = Memory::WaitingPart;
-
   void pushIntended(std::uint32_t index);
 
   void push(const WaitingPart& waiting);
@@ -54,7 +45,7 @@ class ProximityFinder::Search {
   template <typename Part>
   bool processPart(const WaitingPart& waiting, const Part& part);
   bool processTriangle(const WaitingPart& waiting);
-  void open(const WaitingPart& waiting, WholeMesh all, const CenteredBox& box);
+  void open(const WaitingPart& waiting, const MeshOrder& mesh, const CenteredBox& box);
   void open(const WaitingPart& waiting, const ClusterGroup& group, const CenteredBox& box);
   void open(const WaitingPart& waiting, const Cluster& cluster, const CenteredBox& box);
 
@@ -64,41 +55,45 @@ class ProximityFinder::Search {
   bool standFor(const WaitingPart& waiting, const SeparatedTriangle& separated);
   bool leaveOver(double distance);
 
-  const ProximityRequest& request_;
-  Proximity& found_;
-  Facings& facings_;
-  std::vector<WaitingPart>& waiting_;
-  std::vector<SeparatedTriangle>& separated_;
-  PlaneCollector planes_;
+  void begin();
+
+  Facings facings_;
+  std::vector<WaitingPart> waiting_;  // a heap
+  std::vector<SeparatedTriangle> separated_;
+  // Of the running search:
+  const ProximityRequest* request_ = nullptr;
+  Proximity* found_ = nullptr;
+  std::optional<PlaneCollector> planes_;
 };
 
-ProximityFinder::Search::Search(const ProximityRequest& request, Memory& memory, Proximity& proximity)
-    : request_(request),
-      found_(proximity),
-      facings_(memory.facings),
-      waiting_(memory.waiting),
-      separated_(memory.separated),
-      planes_(request.pose.X_WT, proximity.planes) {
-  found_.planes.clear();
-  found_.unplaced.clear();
-  found_.uncovered = {};
+void ProximityFinder::Search::begin() {
+  found_->planes.clear();
+  found_->unplaced.clear();
+  found_->uncovered = {};
   waiting_.clear();
   separated_.clear();
-  facings_.begin(request, found_.unplaced);
+  facings_.begin(*request_, found_->unplaced);
   for (std::uint32_t i = 0; i < facings_.size(); ++i) {
     const Facing& facing = facings_[i];
-    const CenteredBox box(facing.surface->boxes.of(WholeMesh()));
+    const CenteredBox box(facing.surface->boxes.of(facing.mesh().order()));
     push({facing.cover.distance(box), i, 0, 0, Kind::kMesh});
     pushIntended(i);
   }
 }
 
-void ProximityFinder::Search::run() {
+void ProximityFinder::Search::run(const ProximityRequest& request, Proximity& proximity) {
+  request_ = &request;
+  found_ = &proximity;
+  planes_.emplace(request.pose.X_WT, proximity.planes);
+  begin();
   while (!waiting_.empty() && process(pop())) {
   }
-  std::sort(found_.planes.begin(), found_.planes.end(),
+  std::sort(proximity.planes.begin(), proximity.planes.end(),
             [](const auto& a, const auto& b) { return a.plane.gap < b.plane.gap; });
   facings_.end();
+  request_ = nullptr;
+  found_ = nullptr;
+  planes_.reset();
 }
 
 // They are not where the boxes of the mesh say.
@@ -115,7 +110,7 @@ void ProximityFinder::Search::push(const WaitingPart& waiting) {
   std::push_heap(waiting_.begin(), waiting_.end());
 }
 
-ProximityFinder::Memory::WaitingPart ProximityFinder::Search::pop() {
+ProximityFinder::Search::WaitingPart ProximityFinder::Search::pop() {
   std::pop_heap(waiting_.begin(), waiting_.end());
   const WaitingPart waiting = waiting_.back();
   waiting_.pop_back();
@@ -127,7 +122,7 @@ bool ProximityFinder::Search::process(const WaitingPart& waiting) {
   const MeshOrder& order = facings_[waiting.facing].mesh().order();
   switch (waiting.kind) {
     case Kind::kMesh:
-      return processPart(waiting, WholeMesh());
+      return processPart(waiting, order);
     case Kind::kGroup:
       return processPart(waiting, order.groups[waiting.index]);
     case Kind::kCluster:
@@ -142,20 +137,19 @@ bool ProximityFinder::Search::processPart(const WaitingPart& waiting, const Part
   const Facing& facing = facings_[waiting.facing];
   const CenteredBox box(facing.surface->boxes.of(part));
   if (const auto plane = facing.cover.behind(box)) {
-    planes_.quicken(*plane, facing, part, box);
+    planes_->quicken(*plane, facing, part, box);
     return true;
   }
-  if (waiting.bound >= request_.reach) return leaveOver(waiting.bound);
+  if (waiting.bound >= request_->reach) return leaveOver(waiting.bound);
   if (facing.cover.behindNearest(box)) return postpone(waiting);
   open(waiting, part, box);
   return true;
 }
 
-void ProximityFinder::Search::open(const WaitingPart& waiting, WholeMesh /*all*/, const CenteredBox& /*box*/) {
+void ProximityFinder::Search::open(const WaitingPart& waiting, const MeshOrder& mesh, const CenteredBox& /*box*/) {
   const Facing& facing = facings_[waiting.facing];
-  const auto& groups = facing.mesh().order().groups;
-  for (std::uint32_t i = 0; i < groups.size(); ++i) {
-    const CenteredBox box(facing.surface->boxes.of(groups[i]));
+  for (std::uint32_t i = 0; i < mesh.groups.size(); ++i) {
+    const CenteredBox box(facing.surface->boxes.of(mesh.groups[i]));
     push({std::max(waiting.bound, facing.cover.distance(box)), waiting.facing, i, 0, Kind::kGroup});
   }
 }
@@ -173,8 +167,8 @@ void ProximityFinder::Search::open(const WaitingPart& waiting, const Cluster& cl
   Facing& facing = facings_[waiting.facing];
   if (!facing.cover.hasNearest()) seed(waiting, cluster, box);
   const PieceCover::Classified classified = facing.cover.classify(cluster, box);
-  for (const size_t plane : classified.standing) planes_.quicken(plane, facing, cluster, box);
-  const double limit = std::min(facing.nearest, request_.reach);
+  for (const size_t plane : classified.standing) planes_->quicken(plane, facing, cluster, box);
+  const double limit = std::min(facing.nearest, request_->reach);
   double rest = classified.not_nearer != 0 ? facing.nearest : kInfinity;
   for (std::uint64_t left = classified.nearer; left != 0; left &= left - 1) {
     const std::uint32_t triangle = facing.triangleAt(cluster, left);
@@ -208,7 +202,7 @@ void ProximityFinder::Search::seed(const WaitingPart& waiting, const Cluster& cl
     if (distance < least) nearest = triangle;
     least = std::min(least, distance);
   }
-  if (least >= request_.reach) return;
+  if (least >= request_->reach) return;
   const SeparatedTriangle separated = facing.separate(nearest);
   if (separated.gap > 0.0) wait(waiting.facing, separated);
 }
@@ -231,10 +225,10 @@ bool ProximityFinder::Search::processTriangle(const WaitingPart& waiting) {
   const PieceCover::Corners at = facing.corners(separated.triangle);
   if (known && waiting.bound >= facing.nearest) facing.forgetNearest();
   if (const auto plane = facing.cover.behind(at, waiting.checked)) {
-    planes_.quicken(*plane, facing, facing.mesh().triangles()[separated.triangle]);
+    planes_->quicken(*plane, facing, facing.mesh().triangles()[separated.triangle]);
     return true;
   }
-  if (waiting.bound >= request_.reach) return leaveOver(waiting.bound);
+  if (waiting.bound >= request_->reach) return leaveOver(waiting.bound);
   if (!known) {
     if (facing.cover.behindNearest(at)) return postpone(waiting);
     separated = facing.separate(separated.triangle);
@@ -249,27 +243,25 @@ bool ProximityFinder::Search::processTriangle(const WaitingPart& waiting) {
 // Returns false if it is left over: no plane is free.
 bool ProximityFinder::Search::standFor(const WaitingPart& waiting, const SeparatedTriangle& separated) {
   Facing& facing = facings_[waiting.facing];
-  if (separated.gap <= 0.0 && planes_.join(facing, separated)) return true;
+  if (separated.gap <= 0.0 && planes_->join(facing, separated)) return true;
   const double distance = std::min((1.0 - kNearer) * separated.gap, leastBound());
-  if (distance >= request_.reach || planes_.full()) return leaveOver(distance);
-  planes_.add(facing, separated);
+  if (distance >= request_->reach || planes_->full()) return leaveOver(distance);
+  planes_->add(facing, separated);
   return true;
 }
 
 bool ProximityFinder::Search::leaveOver(double distance) {
-  found_.uncovered.distance = std::max(0.0, distance - facings_.rounding() - facings_.maxDisplacement());
-  found_.uncovered.speed = facings_.fastest();
+  found_->uncovered.distance = std::max(0.0, distance - facings_.rounding() - facings_.maxDisplacement());
+  found_->uncovered.speed = facings_.fastest();
   return false;
 }
 
-ProximityFinder::ProximityFinder() : memory_(std::make_unique<Memory>()) {}
+ProximityFinder::ProximityFinder() : search_(std::make_unique<Search>()) {}
 
 ProximityFinder::~ProximityFinder() = default;
 
-void ProximityFinder::find(const ProximityRequest& request, Proximity& proximity) {
-  Search(request, *memory_, proximity).run();
-}
+void ProximityFinder::find(const ProximityRequest& request, Proximity& proximity) { search_->run(request, proximity); }
 
-void ProximityFinder::reset() { memory_->facings.reset(); }
+void ProximityFinder::reset() { search_->reset(); }
 
 }  // namespace sweep_guard_core

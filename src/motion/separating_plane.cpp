@@ -10,33 +10,24 @@ constexpr double kPlacedRounding =
     0x1p-21;  // of vertices to float32, each time a shape is placed, in radii of the mesh
 constexpr double kPi = 3.14159265358979323846;
 
-std::vector<ToolBall> prismAround(const ConvexShape::Cylinder& cylinder, double padding) {
+std::vector<ToolBall> prismAround(const ConvexShape& shape_T, const ConvexShape::Cylinder& cylinder) {
   const double radius = cylinder.radius / std::cos(kPi / kSides);
   std::vector<ToolBall> balls;
   for (const double z : {0.0, -cylinder.length}) {
     for (int i = 0; i < kSides; ++i) {
       const double angle = 2.0 * kPi * i / kSides;
-      const Eigen::Vector3d corner_C(radius * std::cos(angle), radius * std::sin(angle), z);
-      balls.push_back({cylinder.X_TC * corner_C, padding});
+      const Eigen::Vector3d corner_S(radius * std::cos(angle), radius * std::sin(angle), z);
+      balls.push_back({shape_T.X_TS() * corner_S, shape_T.padding()});
     }
   }
   return balls;
 }
 
-// The core of a sphere is its center.
-bool isPoint(const ConvexShape& shape) {
-  for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(i);
-    if (shape.coreSupportPoint(axis) != shape.coreSupportPoint(-axis)) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 std::vector<ToolBall> enclosingBalls(const ConvexShape& shape_T) {
-  if (const auto cylinder = shape_T.asCylinder()) return prismAround(*cylinder, shape_T.padding());
-  if (isPoint(shape_T)) return {{shape_T.coreSupportPoint(Eigen::Vector3d::UnitX()), shape_T.padding()}};
+  if (const auto* const cylinder = shape_T.asCylinder()) return prismAround(shape_T, *cylinder);
+  if (shape_T.isBall()) return {{shape_T.coreSupportPoint(Eigen::Vector3d::UnitX()), shape_T.padding()}};
   const TriangleMesh& mesh_T = shape_T.mesh_T();
   std::vector<ToolBall> balls;
   for (size_t i = 0; i < mesh_T.vertexCount(); ++i) {

@@ -111,7 +111,7 @@ double SurfaceMotion::alongNormal(const Eigen::Vector3d& n_M, const Triangle& tr
 double SurfaceMotion::fastest(const CenteredBox& box_M) const {
   double speed = 0.0;
   if (deforms_) {
-    const CenteredBox displacement_M(displacements_.of(WholeMesh()));
+    const CenteredBox displacement_M(displacements_.of(workpiece_->mesh_M.order()));
     speed += (1.0 + kFloatRounding) * (displacement_M.center.cwiseAbs() + displacement_M.half).norm() / interval_;
   }
   if (!frame_moves_) return speed;

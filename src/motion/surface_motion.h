@@ -26,7 +26,7 @@ class SurfaceMotion {
   bool deforms() const { return deforms_; }
 
   /// Returns an upper bound on the speed along a direction [m/s], in the axes of M, of the vertices of a part of the mesh.
-  /// @param part   Cluster, ClusterGroup or WholeMesh
+  /// @param part   Cluster, ClusterGroup or MeshOrder
   /// @param box_M  around the part, relative to the mesh's origin() [m]
   template <typename Part>
   double alongNormal(const Eigen::Vector3d& n_M, const Part& part, const CenteredBox& box_M) const {

@@ -1,6 +1,7 @@
 #include "prediction/direct_extrapolator.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -15,22 +16,10 @@ constexpr int kSmooth = 2;          // window of 300 ms
 constexpr double kMaxSpeed = 2.5;   // largest speed that counts, relative to the mean speed
 constexpr double kSlowSpeed = 0.3;  // half of the saturated speed is reached here, relative to the mean speed
 
-enum Column : Eigen::Index { kScaled = kWindows.size(), kSaturated, kReturn, kColumns };
-static_assert(kColumns == kRegressors);
-
-template <int Axes, size_t... i>
-std::array<DisplacementRegression<Axes>, sizeof...(i)> makeRegressions(double prior_speed,
-                                                                       std::index_sequence<i...> /*horizons*/) {
-  return {DisplacementRegression<Axes>(kLearnedHorizons[i], prior_speed)...};
-}
-
-template <int Axes, typename Speeds, size_t... i>
-auto makeGroups(const Speeds& prior_speeds, std::index_sequence<i...> /*groups*/) {
-  constexpr auto kHorizons = std::make_index_sequence<kLearnedHorizons.size()>();
-  using Regressions = std::array<DisplacementRegression<Axes>, kLearnedHorizons.size()>;
-  return std::array<Regressions, sizeof...(i)>{
-      makeRegressions<Axes>(prior_speeds[static_cast<Eigen::Index>(i)], kHorizons)...};
-}
+constexpr int kScaled = kWindows.size();
+constexpr int kSaturated = kScaled + 1;
+constexpr int kReturn = kScaled + 2;
+static_assert(kReturn + 1 == kRegressors);
 
 }  // namespace
 
@@ -82,8 +71,12 @@ template class MotionRegressors<JointSpace>;
 
 template <typename Space>
 LearnedMotion<Space>::LearnedMotion(const typename Space::Speeds& prior_speeds, size_t channels)
-    : groups(makeGroups<Space::kAxes>(prior_speeds, std::make_index_sequence<Space::kGroups>())),
-      share(1.0 / static_cast<double>(channels)) {}
+    : share(1.0 / static_cast<double>(channels)) {
+  for (int group = 0; group < Space::kGroups; ++group) {
+    Regressions& regressions = groups.emplace_back();
+    for (const double ahead : kLearnedHorizons) regressions.emplace_back(ahead, prior_speeds[group]);
+  }
+}
 
 template <typename Space>
 void DirectExtrapolator<Space>::observe(const MotionTracker<Space>& tracker) {
@@ -97,9 +90,9 @@ void DirectExtrapolator<Space>::observe(const MotionTracker<Space>& tracker) {
   targets_.add(tracker.newest(), newest, [&](const auto& then, size_t i, const Vector& moved) {
     for (size_t group = 0; group < learned_->groups.size(); ++group) {
       const auto first = static_cast<Eigen::Index>(group) * Space::kAxes;
-      learned_->groups[group][i].learn(
-          {then.template middleRows<Space::kAxes>(first), moved.template segment<Space::kAxes>(first), period},
-          expectedWeights(learned_->groups[group], i));
+      learned_->groups[group][i].learn(then.template middleRows<Space::kAxes>(first),
+                                       moved.template segment<Space::kAxes>(first), period,
+                                       expectedWeights(learned_->groups[group], i));
     }
   });
 }

@@ -9,7 +9,6 @@
 // horizon, and each takes a rank-1 update for each axis and one solution of 8 x 8; a prediction takes a product of 8
 // weights for each axis. The samples of the last second are kept; nothing is allocated unless they become more.
 
-#include <array>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -49,13 +48,13 @@ class MotionRegressors {
 /// What is learned for each of kLearnedHorizons, of each group of axes. Channels may share it: joints that one hand moves.
 template <typename Space>
 struct LearnedMotion {
-  using Regressions = std::array<DisplacementRegression<Space::kAxes>, kLearnedHorizons.size()>;
+  using Regressions = std::vector<DisplacementRegression<Space::kAxes>>;  ///< for each of kLearnedHorizons
 
   /// @param channels  number of those that share it, > 0
   LearnedMotion(const typename Space::Speeds& prior_speeds, size_t channels);
 
-  std::array<Regressions, Space::kGroups> groups;
-  const double share;  ///< of each channel in the time that is learned from
+  std::vector<Regressions> groups;  ///< Space::kGroups of them
+  const double share;               ///< of each channel in the time that is learned from
 };
 
 /// Predicts displacements by one DisplacementRegression on MotionRegressors for each of kLearnedHorizons.

@@ -15,8 +15,8 @@ constexpr double kRestShare = 0.03;  // prior information of one second at the p
 
 // Time is weighted by motion: a tool at rest neither teaches nor forgets anything.
 template <int Axes>
-void DisplacementRegression<Axes>::learn(const Observation& observation, const Weights& expected) {
-  const auto& [velocities, moved, period] = observation;
+void DisplacementRegression<Axes>::learn(const Velocities& velocities, const Moved& moved, double period,
+                                         const Weights& expected) {
   const Moved steady = ahead_ * velocities.col(0);
   const double motion = std::max(moved.norm(), steady.norm()) / (prior_speed_ * ahead_);
   const double weight = period * std::min(1.0, motion);

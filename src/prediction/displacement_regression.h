@@ -22,12 +22,6 @@ class DisplacementRegression {
   using Moved = Eigen::Matrix<double, Axes, 1>;
   using Weights = Eigen::Matrix<double, kRegressors, 1>;  ///< [s]; predicted displacement: velocities * weights
 
-  struct Observation {
-    Velocities velocities;  ///< at a pose
-    Moved moved;            ///< displacement within the horizon after the pose
-    double period;          ///< since the previous pose [s], > 0
-  };
-
   /// @param ahead        the horizon [s], > 0
   /// @param prior_speed  motion at this speed has full weight, slower motion has less, > 0
   DisplacementRegression(double ahead, double prior_speed) : ahead_(ahead), prior_speed_(prior_speed) {}
@@ -36,8 +30,11 @@ class DisplacementRegression {
   static Weights constantVelocity(double ahead) { return ahead * Weights::Unit(0); }
 
   /// Learns from the motion after one pose.
-  /// @param expected  weights that the fit leans towards, the more so the larger its errors
-  void learn(const Observation& observation, const Weights& expected);
+  /// @param velocities  at the pose
+  /// @param moved       displacement within the horizon after the pose
+  /// @param period      since the previous pose [s], > 0
+  /// @param expected    weights that the fit leans towards, the more so the larger its errors
+  void learn(const Velocities& velocities, const Moved& moved, double period, const Weights& expected);
 
   const Weights& weights() const { return weights_; }
 

@@ -49,15 +49,14 @@ ErrorModel<Space>::ErrorModel(const Space& space) {
   const Squares prior_activity = activityAt(space.priorSpeeds());
   for (const double ahead : kLearnedHorizons) {
     const Squares share = Squares::Constant(kPriorShare);
-    statistics_.push_back({ExponentialMovingAverage<Squares>((ahead * share).square() * prior_activity, 1.0),
-                           ExponentialMovingAverage<Squares>(prior_activity, 1.0)});
+    errors_.emplace_back((ahead * share).square() * prior_activity, 1.0);
+    activities_.emplace_back(prior_activity, 1.0);
   }
 }
 
 template <typename Space>
 typename ErrorModel<Space>::Squares ErrorModel<Space>::share(size_t horizon) const {
-  const auto& [errors, activity] = statistics_[horizon];
-  return (errors.mean() / activity.mean()).sqrt() / kLearnedHorizons[horizon];
+  return (errors_[horizon].mean() / activities_[horizon].mean()).sqrt() / kLearnedHorizons[horizon];
 }
 
 // Errors are relative to a speed: the largest of the speed at the pose, that of the motion that followed, and that of
@@ -75,11 +74,11 @@ void ErrorModel<Space>::observe(const MotionTracker<Space>& tracker, const Vecto
   if (tracker.step() == Step::kCorrects) targets_.correctNewest(tracker.newest(), newest);
   if (tracker.step() != Step::kContinues) return;
   targets_.add(tracker.newest(), newest, [&](const Features& features, size_t i, const Vector& moved) {
-    statistics_[i].errors.add(squares(errorOf<Space>(features.predicted[i], moved), features.direction), period);
+    errors_[i].add(squares(errorOf<Space>(features.predicted[i], moved), features.direction), period);
     const auto speed = [&](const Vector& displacement) {
       return speedSquares(Vector(displacement / kLearnedHorizons[i]));
     };
-    statistics_[i].activity.add(features.activity.max(speed(moved)).max(speed(features.predicted[i])), period);
+    activities_[i].add(features.activity.max(speed(moved)).max(speed(features.predicted[i])), period);
   });
 }
 

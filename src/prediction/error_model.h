@@ -37,10 +37,6 @@ class ErrorModel {
   // Mean squares per axis, for each kind of error.
   using Squares = Eigen::Array<double, Space::kErrors, 1>;
   using Direction = Eigen::Matrix<double, Space::kAxes, 1>;
-  struct ErrorStatistics {
-    ExponentialMovingAverage<Squares> errors;
-    ExponentialMovingAverage<Squares> activity;  // squared speed at the time of the errors
-  };
   struct Features {
     PredictedDisplacements<Space> predicted;
     Squares activity;
@@ -51,7 +47,9 @@ class ErrorModel {
   Squares share(size_t horizon) const;
 
   DelayedTargets<Space, Features> targets_;
-  std::vector<ErrorStatistics> statistics_;  // for each of kLearnedHorizons
+  // For each of kLearnedHorizons: the errors, and the squared speed at the time of the errors.
+  std::vector<ExponentialMovingAverage<Squares>> errors_;
+  std::vector<ExponentialMovingAverage<Squares>> activities_;
   ExponentialMovingAverage<Squares> speeds_{Squares::Zero()};
   Squares activity_ = Squares::Zero();       // current squared speed plus the mean
   Direction direction_ = Direction::Zero();  // of the motion: unit, or 0 at rest

@@ -39,7 +39,7 @@ template <typename Space>
 PolynomialExtrapolator<Space>::PolynomialExtrapolator(const PredictorOptions& options)
     : degrees_(Space::degreesOf(options)),
       window_(options.window),
-      fit_({*std::max_element(degrees_.begin(), degrees_.end()), options.window, options.forgetting_factor}) {}
+      fit_(*std::max_element(degrees_.begin(), degrees_.end()), options.window, options.forgetting_factor) {}
 
 template <typename Space>
 void PolynomialExtrapolator<Space>::observe(const MotionTracker<Space>& tracker) {

@@ -14,7 +14,7 @@ namespace {
 constexpr double kPriorSpeed = 0.02;     // [m/s]
 constexpr double kPriorTurnRate = 0.15;  // [rad/s]
 
-JointSpace spaceOf(const PredictableJoint& joint, const PredictorOptions& options) {
+JointSpace spaceOf(const JointVariable& joint, const PredictorOptions& options) {
   JointSpace space{joint.turns ? options.max_turn_rate : options.max_speed, joint.turns ? kPriorTurnRate : kPriorSpeed};
   if (joint.continuous) return space;
   space.lower = joint.lower;
@@ -23,7 +23,7 @@ JointSpace spaceOf(const PredictableJoint& joint, const PredictorOptions& option
 }
 
 // One hand moves the joints, so they begin and end together: those of one kind share what is learned.
-std::shared_ptr<LearnedMotion<JointSpace>> learnedBy(const std::vector<PredictableJoint>& joints, bool turn) {
+std::shared_ptr<LearnedMotion<JointSpace>> learnedBy(const std::vector<JointVariable>& joints, bool turn) {
   const auto count =
       std::count_if(joints.begin(), joints.end(), [turn](const auto& joint) { return joint.turns == turn; });
   const JointSpace::Speeds prior_speed(turn ? kPriorTurnRate : kPriorSpeed);
@@ -33,8 +33,7 @@ std::shared_ptr<LearnedMotion<JointSpace>> learnedBy(const std::vector<Predictab
 }  // namespace
 
 struct JointPredictor::Joint {
-  Joint(const PredictableJoint& joint, const PredictorOptions& options,
-        std::shared_ptr<LearnedMotion<JointSpace>> learned)
+  Joint(const JointVariable& joint, const PredictorOptions& options, std::shared_ptr<LearnedMotion<JointSpace>> learned)
       : continuous(joint.continuous), channel(options, spaceOf(joint, options), std::move(learned)) {}
 
   bool continuous;
@@ -42,11 +41,11 @@ struct JointPredictor::Joint {
   double newest = 0.0;  // as observed [rad or m]
 };
 
-JointPredictor::JointPredictor(const PredictorOptions& options, const std::vector<PredictableJoint>& joints) {
+JointPredictor::JointPredictor(const PredictorOptions& options, const std::vector<JointVariable>& joints) {
   checked(options);
   const auto turning = learnedBy(joints, true);
   const auto sliding = learnedBy(joints, false);
-  for (const PredictableJoint& joint : joints) joints_.emplace_back(joint, options, joint.turns ? turning : sliding);
+  for (const JointVariable& joint : joints) joints_.emplace_back(joint, options, joint.turns ? turning : sliding);
 }
 
 JointPredictor::~JointPredictor() = default;

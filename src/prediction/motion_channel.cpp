@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "common/number_text.h"
 #include "prediction/polynomial_fit.h"
 #include "sweep_guard/common/error.h"
 
@@ -44,8 +45,7 @@ const PredictorOptions& checked(const PredictorOptions& options) {
                                                              std::to_string(kMaxPolynomialDegree));
   }
   check(options.forgetting_factor > 0.0 && options.forgetting_factor <= 1.0,
-        "forgetting factor " + std::to_string(options.forgetting_factor) +
-            " is out of range: use more than 0, at most 1");
+        "forgetting factor " + shortText(options.forgetting_factor) + " is out of range: use more than 0, at most 1");
   check(options.window > Duration::zero(), "the observation window must be longer than 0 s");
   check(options.max_speed > 0.0, "max_speed must be greater than 0");
   check(options.max_turn_rate > 0.0, "max_turn_rate must be greater than 0");

@@ -74,7 +74,7 @@ class Velocity {
   using Vector = typename Space::Vector;
 
   /// @param window  time over which the velocity is measured, > 0
-  explicit Velocity(Duration window) : fit_({/*degree=*/1, window, /*forgetting_factor=*/1.0}) {}
+  explicit Velocity(Duration window) : fit_(/*degree=*/1, window, /*forgetting_factor=*/1.0) {}
 
   void observe(const MotionTracker<Space>& tracker);
 

@@ -53,9 +53,10 @@ typename PolynomialFit<N>::Values PolynomialFit<N>::Curve::slopeAt(Time stamp) c
 }
 
 template <int N>
-PolynomialFit<N>::PolynomialFit(const Options& options) : options_(options), samples_(64) {
-  assert(options.degree >= 0 && options.degree <= kMaxPolynomialDegree && options.window > Duration::zero());
-  assert(options.forgetting_factor > 0.0 && options.forgetting_factor <= 1.0);
+PolynomialFit<N>::PolynomialFit(int degree, Duration window, double forgetting_factor)
+    : degree_(degree), window_(window), forgetting_factor_(forgetting_factor), samples_(64) {
+  assert(degree >= 0 && degree <= kMaxPolynomialDegree && window > Duration::zero());
+  assert(forgetting_factor > 0.0 && forgetting_factor <= 1.0);
 }
 
 template <int N>
@@ -63,7 +64,7 @@ void PolynomialFit<N>::add(Time stamp, const Values& values, Duration least_span
   assert(samples_.empty() || stamp > samples_.back().stamp);
   if (samples_.full()) samples_.set_capacity(2 * samples_.capacity());
   samples_.push_back({stamp, values});
-  fit_.forget(options_.forgetting_factor);
+  fit_.forget(forgetting_factor_);
   include(samples_.back());
   dropOld(least_span);
   const Time middle = samples_.front().stamp + span() / 2;
@@ -98,12 +99,12 @@ void PolynomialFit<N>::include(const Sample& sample) {
 
 template <int N>
 void PolynomialFit<N>::dropOld(Duration least_span) {
-  const Time oldest = samples_.back().stamp - options_.window;
+  const Time oldest = samples_.back().stamp - window_;
   const Time spanned = samples_.back().stamp - least_span;
-  const size_t kept = static_cast<size_t>(std::max(options_.degree + 1, 2));
+  const size_t kept = static_cast<size_t>(std::max(degree_ + 1, 2));
   while (samples_.size() > kept && samples_.front().stamp < oldest && samples_[1].stamp <= spanned) {
     const Sample& old = samples_.front();
-    const double weight = std::pow(options_.forgetting_factor, static_cast<double>(samples_.size() - 1));
+    const double weight = std::pow(forgetting_factor_, static_cast<double>(samples_.size() - 1));
     fit_.add(legendre(toSeconds(old.stamp - middle_) / half_width_), old.value - origin_, -weight);
     samples_.pop_front();
   }
@@ -116,7 +117,7 @@ void PolynomialFit<N>::rebuild() {
   origin_ = samples_.back().value;
   fit_ = {};
   for (const Sample& sample : samples_) {
-    fit_.forget(options_.forgetting_factor);
+    fit_.forget(forgetting_factor_);
     include(sample);
   }
 }
@@ -130,7 +131,7 @@ typename PolynomialFit<N>::Curve PolynomialFit<N>::curve(const Degrees& degrees)
   curve.origin_ = origin_;
   const int possible = static_cast<int>(std::min<size_t>(samples_.size(), kTerms)) - 1;
   for (size_t axis = 0; axis < degrees.size(); ++axis) {
-    assert(degrees[axis] <= options_.degree);
+    assert(degrees[axis] <= degree_);
     curve.degrees_[axis] = std::min(degrees[axis], possible);
   }
   for (const int degree : curve.degrees_) {

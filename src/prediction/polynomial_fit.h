@@ -21,12 +21,6 @@ class PolynomialFit {
   using Degrees = std::array<int, N>;  ///< one for each value, 0 to kMaxPolynomialDegree
   using Values = Eigen::Matrix<double, N, 1>;
 
-  struct Options {
-    int degree = 1;                  ///< largest degree that curve() may use, 0 to kMaxPolynomialDegree
-    Duration window{};               ///< older samples are dropped, except the newest degree + 1; > 0
-    double forgetting_factor = 1.0;  ///< weight of a sample relative to the next one, in (0, 1]
-  };
-
   /// The fitted polynomials. A snapshot: later samples do not change it.
   class Curve {
    public:
@@ -46,7 +40,10 @@ class PolynomialFit {
     std::array<typename Fit::Coefficients, kMaxPolynomialDegree + 1> by_degree_;  // for the degrees in use
   };
 
-  explicit PolynomialFit(const Options& options);
+  /// @param degree             largest that curve() may use, 0 to kMaxPolynomialDegree
+  /// @param window             older samples are dropped, except the newest degree + 1; > 0
+  /// @param forgetting_factor  weight of a sample relative to the next one, in (0, 1]
+  PolynomialFit(int degree, Duration window, double forgetting_factor);
 
   /// Adds a sample.
   /// @param stamp       later than the previous sample's
@@ -60,7 +57,7 @@ class PolynomialFit {
   Duration span() const;                           ///< from the oldest sample to the newest
 
   /// Returns the fitted polynomials. There must be a sample.
-  /// @param degrees  each at most Options::degree; lowered if there are too few samples
+  /// @param degrees  each at most that of the constructor; lowered if there are too few samples
   Curve curve(const Degrees& degrees) const;
 
  private:
@@ -70,7 +67,9 @@ class PolynomialFit {
   void dropOld(Duration least_span);
   void rebuild();
 
-  Options options_;
+  int degree_;
+  Duration window_;
+  double forgetting_factor_;
   boost::circular_buffer<Sample> samples_;
   typename Curve::Fit fit_;
   Time middle_;

@@ -9,20 +9,47 @@ namespace {
 
 constexpr size_t kMaxStates = 64;  // as there are at 1 kHz, thrice
 constexpr double kFaster = 2.0;    // than the robot description says
+constexpr int kStepsOfRun = 3;
+constexpr Duration kTimeOfRun = std::chrono::milliseconds(50);
 
 }  // namespace
 
 std::string ToolJumps::add(const ToolState& state, const SpeedLimits& limits) {
   states_.add(state);
   forgetOld();
-  for (size_t i = 0; i < joints_.size(); ++i) {
-    if (const auto jump = jumpOfJoint(i, limits))
-      return "joint '" + printable(joints_[i].name) + "' jumped: " + inWords(*jump);
-  }
   const auto jump = jumpOfTool(limits);
+  noteRun(jump && !jump->turns);
+  for (size_t i = 0; i < joints_.size(); ++i) {
+    if (const auto of_joint = jumpOfJoint(i, limits))
+      return "joint '" + printable(joints_[i].name) + "' jumped: " + inWords(*of_joint);
+  }
   if (!jump) return {};
+  if (goesOn()) {
+    const double speed = run_->length / toSeconds(states_.newest().stamp - run_->from.stamp);
+    return "the tool '" + printable(tool_frame_) + "' moves at " + inWords({speed, /*turns=*/false}) + " against '" +
+           printable(fixed_frame_) + "', as a pose in millimeters does";
+  }
   return "the tool '" + printable(tool_frame_) + "' jumped against '" + printable(fixed_frame_) +
          "': " + inWords(*jump);
+}
+
+void ToolJumps::noteRun(bool jumped) {
+  if (!jumped) return run_.reset();
+  const ToolState& before = states_[states_.size() - 2];
+  if (!run_) run_ = Run{before};
+  run_->length += movedBetween(before.X_WT, states_.newest().X_WT).distance;
+  ++run_->steps;
+}
+
+// Places that alternate are no motion.
+bool ToolJumps::goesOn() const {
+  if (!run_ || run_->steps < kStepsOfRun || states_.newest().stamp - run_->from.stamp < kTimeOfRun) return false;
+  return movedBetween(run_->from.X_WT, states_.newest().X_WT).distance > 0.5 * run_->length;
+}
+
+void ToolJumps::reset() {
+  states_.clear();
+  run_.reset();
 }
 
 std::string ToolJumps::faster() const {

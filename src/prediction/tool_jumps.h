@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "sweep_guard/common/sample_buffer.h"
+#include "sweep_guard/kinematics/kinematic_tree.h"
 #include "sweep_guard/prediction/jump.h"
 
 namespace sweep_guard_core {
@@ -19,25 +21,29 @@ struct ToolState {
 /// Finds jumps of the tool in the fixed frame, and of its joints. One thread.
 class ToolJumps {
  public:
-  struct Joint {
-    std::string name;
-    bool turns = true;      ///< its positions are angles; otherwise lengths
-    double velocity = 0.0;  ///< largest by the robot description [rad/s or m/s]; 0: it does not say
-  };
-
-  ToolJumps(std::string tool_frame, std::string fixed_frame, std::vector<Joint> joints)
+  ToolJumps(std::string tool_frame, std::string fixed_frame, std::vector<JointVariable> joints)
       : tool_frame_(std::move(tool_frame)), fixed_frame_(std::move(fixed_frame)), joints_(std::move(joints)) {}
 
   /// Adds the newest state; stamps do not decrease.
-  /// @returns what jumped to it, in words: a joint goes before the tool; empty: nothing did
+  /// @returns what jumped to it, in words: a joint goes before the tool; empty: nothing did. Of a tool that goes on as fast, its
+  ///     speed along the way
   std::string add(const ToolState& state, const SpeedLimits& limits);
 
   /// Returns which joint moved to the newest state at more than twice its velocity of the robot description; empty: none.
   std::string faster() const;
 
-  void reset() { states_.clear(); }  ///< forgets all states
+  void reset();  ///< forgets all states
 
  private:
+  // Steps in a row that each were a jump of the tool.
+  struct Run {
+    ToolState from;
+    double length = 0.0;  // [m]
+    int steps = 0;
+  };
+
+  void noteRun(bool jumped);
+  bool goesOn() const;
   template <typename MovedTo>
   std::optional<JumpSpeed> jumpOf(const MovedTo& moved, const SpeedLimits& limits) const;
   std::optional<JumpSpeed> jumpOfJoint(size_t joint, const SpeedLimits& limits) const;
@@ -46,7 +52,8 @@ class ToolJumps {
 
   const std::string tool_frame_;
   const std::string fixed_frame_;
-  const std::vector<Joint> joints_;
+  const std::vector<JointVariable> joints_;
+  std::optional<Run> run_;          // up to the newest state
   SampleBuffer<ToolState> states_;  // the first is the newest one that is older by 20 ms, if there is one
 };
 

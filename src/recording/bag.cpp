@@ -36,30 +36,27 @@ const TopicChoice kPoses = {{"geometry_msgs/PoseStamped", "geometry_msgs/Transfo
                             "PoseStamped or TransformStamped",
                             "motion_topic:=TOPIC, or --topic of evaluate_prediction"};
 
-struct FramedPose {
-  std::string frames;
-  StampedPose pose;
-};
-
-FramedPose read(const rosbag::MessageInstance& message) {
+StampedPose read(const rosbag::MessageInstance& message, std::string& frames) {
   if (const auto pose = message.instantiate<geometry_msgs::PoseStamped>()) {
-    return {"'" + pose->header.frame_id + "'", {fromMsg(pose->header.stamp), fromMsg(pose->pose)}};
+    frames = "'" + pose->header.frame_id + "'";
+    return {fromMsg(pose->header.stamp), fromMsg(pose->pose)};
   }
   const auto transform = message.instantiate<geometry_msgs::TransformStamped>();
   if (!transform) throw InvalidInput("message cannot be read; record it again");
-  return {"'" + transform->child_frame_id + "' in '" + transform->header.frame_id + "'",
-          {fromMsg(transform->header.stamp), fromMsg(transform->transform)}};
+  frames = "'" + transform->child_frame_id + "' in '" + transform->header.frame_id + "'";
+  return {fromMsg(transform->header.stamp), fromMsg(transform->transform)};
 }
 
-void append(std::vector<StampedPose>* poses, std::string* frames, const FramedPose& next) {
-  if (poses->empty()) *frames = next.frames;
-  if (next.frames != *frames) {
-    throw InvalidInput("frame is " + next.frames + ", was " + *frames + " before; record one frame per topic");
+void append(const rosbag::MessageInstance& message, std::vector<StampedPose>& poses, std::string& frames) {
+  const std::string before = frames;
+  const StampedPose next = read(message, frames);
+  if (!poses.empty() && frames != before) {
+    throw InvalidInput("frame is " + frames + ", was " + before + " before; record one frame per topic");
   }
-  if (!poses->empty() && next.pose.stamp < poses->back().stamp) {
+  if (!poses.empty() && next.stamp < poses.back().stamp) {
     throw InvalidInput("stamp is earlier than the previous one; give a bag of one run");
   }
-  poses->push_back(next.pose);
+  poses.push_back(next);
 }
 
 const TopicChoice kJoints = {{"sensor_msgs/JointState"}, "sensor_msgs/JointState", "joints_topic:=TOPIC"};
@@ -120,7 +117,7 @@ std::vector<StampedPose> readBag(const std::string& path, const std::string& top
   std::string frames;
   openBag(path, [&](const rosbag::Bag& bag) {
     forEachMessage(bag, chooseTopic(bag, topic, kPoses),
-                   [&](const rosbag::MessageInstance& message) { append(&poses, &frames, read(message)); });
+                   [&](const rosbag::MessageInstance& message) { append(message, poses, frames); });
   });
   return poses;
 }

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "sweep_guard/common/time.h"
+#include "sweep_guard/common/stamped_pose.h"
 #include "sweep_guard/common/warning_level.h"
 
 namespace sweep_guard_recording {
@@ -28,7 +28,7 @@ class LevelTrace {
   /// @param time  not earlier than in the previous call
   void add(sweep_guard_core::Time time, sweep_guard_core::WarningLevel level) {
     newest_ = time;
-    if (changes_.empty() || changes_.back().level != level) changes_.push_back({time, level});
+    if (changes_.empty() || changes_.back().value != level) changes_.push_back({time, level});
   }
 
   /// Returns the intervals in which the level was `min_level` or higher without a break. The last one ends at the newest
@@ -37,8 +37,8 @@ class LevelTrace {
   std::vector<TimeInterval> alarms(sweep_guard_core::WarningLevel min_level) const {
     std::vector<TimeInterval> alarms;
     for (size_t i = 0; i < changes_.size(); ++i) {
-      if (changes_[i].level < min_level) continue;
-      if (i == 0 || changes_[i - 1].level < min_level) alarms.push_back({changes_[i].time, {}});
+      if (changes_[i].value < min_level) continue;
+      if (i == 0 || changes_[i - 1].value < min_level) alarms.push_back({changes_[i].stamp, {}});
       alarms.back().end = endOf(i);
     }
     return alarms;
@@ -49,30 +49,25 @@ class LevelTrace {
     using sweep_guard_core::WarningLevel;
     std::vector<WarnedContact> contacts;
     for (size_t i = 0; i < changes_.size(); ++i) {
-      if (changes_[i].level != WarningLevel::kContact) continue;
+      if (changes_[i].value != WarningLevel::kContact) continue;
       contacts.push_back(
-          {{changes_[i].time, endOf(i)}, since(i, WarningLevel::kConsidered), since(i, WarningLevel::kReflex)});
+          {{changes_[i].stamp, endOf(i)}, since(i, WarningLevel::kConsidered), since(i, WarningLevel::kReflex)});
     }
     return contacts;
   }
 
  private:
-  struct Change {
-    sweep_guard_core::Time time;
-    sweep_guard_core::WarningLevel level;
-  };
-
-  sweep_guard_core::Time endOf(size_t i) const { return i + 1 < changes_.size() ? changes_[i + 1].time : newest_; }
+  sweep_guard_core::Time endOf(size_t i) const { return i + 1 < changes_.size() ? changes_[i + 1].stamp : newest_; }
 
   sweep_guard_core::Time since(size_t contact, sweep_guard_core::WarningLevel min_level) const {
     const auto warns = [&](size_t i) {
-      return changes_[i].level >= min_level && changes_[i].level < sweep_guard_core::WarningLevel::kContact;
+      return changes_[i].value >= min_level && changes_[i].value < sweep_guard_core::WarningLevel::kContact;
     };
     while (contact > 0 && warns(contact - 1)) --contact;
-    return changes_[contact].time;
+    return changes_[contact].stamp;
   }
 
-  std::vector<Change> changes_;
+  std::vector<sweep_guard_core::StampedValue<sweep_guard_core::WarningLevel>> changes_;
   sweep_guard_core::Time newest_;
 };
 

@@ -14,6 +14,7 @@ namespace sweep_guard_recording {
 /// @return exit status; 2, with one line in the log, if a parameter or a file is refused or cannot be read
 template <typename Node>
 int runNode(int argc, char** argv, const std::string& name) {
+  sweep_guard_ros::logInUtf8();
   ros::init(argc, argv, name);
   sweep_guard_ros::ParameterReader parameters{
       ros::NodeHandle("~")};  // outlives the node: without a handle the console is silent

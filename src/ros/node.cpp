@@ -11,7 +11,10 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       guard_(private_node, state_),
       inputs_(node, state_, master_watch_.thread()),
       outputs_(node, private_node, state_, guard_, inputs_, master_watch_.thread()),
-      watchdog_(state_, [this] { inputs_.applyLateChanges(); }) {}
+      watchdog_(state_, [this] {
+        inputs_.applyLateChanges();
+        inputs_.addRestingPose();
+      }) {}
 
 // Not in the constructor: where one thread cannot be started, the destructor ends the others.
 void SweepGuardNode::start() {

@@ -76,9 +76,9 @@ void paintShaded(Ogre::Pass& pass, const Ogre::ColourValue& color) {
   blend(pass, color.a);
 }
 
-Drawing::Drawing(Ogre::SceneManager& scene, Ogre::SceneNode& node, Depth depth)
+Drawing::Drawing(Ogre::SceneManager& scene, Ogre::SceneNode& node, bool on_top)
     : scene_(scene), object_(scene.createManualObject()), faces_(makeMaterial()), lines_(makeMaterial()) {
-  if (depth == Depth::kOnTop) {
+  if (on_top) {
     faces_->setDepthCheckEnabled(false);
     lines_->setDepthCheckEnabled(false);
     object_->setRenderQueueGroup(Ogre::RENDER_QUEUE_6);

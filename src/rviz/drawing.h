@@ -46,9 +46,8 @@ void paintShaded(Ogre::Pass& pass, const Ogre::ColourValue& color);
 /// Draws a small number of triangles and lines that are replaced whenever they change.
 class Drawing {
  public:
-  enum class Depth { kInTheScene, kOnTop };  ///< kOnTop: nothing hides the drawing
-
-  Drawing(Ogre::SceneManager& scene, Ogre::SceneNode& node, Depth depth = Depth::kInTheScene);
+  /// @param on_top  nothing hides the drawing
+  Drawing(Ogre::SceneManager& scene, Ogre::SceneNode& node, bool on_top = false);
   ~Drawing();
   Drawing(const Drawing&) = delete;
   Drawing& operator=(const Drawing&) = delete;

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "common/guarded_by.h"
 #include "rviz/panel_state.h"
-#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_rviz {
 

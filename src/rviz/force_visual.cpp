@@ -3,6 +3,8 @@
 #include <OgreSceneManager.h>
 #include <OgreSceneNode.h>
 
+#include <utility>
+
 #include "rviz/feeds.h"
 #include "rviz/ogre_conversions.h"
 
@@ -14,24 +16,14 @@ constexpr float kText = 0.006F;      // height of a letter [m]
 
 }  // namespace
 
-struct ForceVisual::Label {
-  explicit Label(Ogre::SceneNode& parent) : text("-"), node(parent.createChildSceneNode()) {
-    text.showOnTop(true);
-    text.setTextAlignment(rviz::MovableText::H_LEFT, rviz::MovableText::V_ABOVE);
-    node->attachObject(&text);
-  }
-
-  rviz::MovableText text;
-  Ogre::SceneNode* node;
-};
-
 ForceVisual::ForceVisual(Ogre::SceneManager& scene, Ogre::SceneNode& node)
-    : scene_(scene), node_(node), arrows_(scene, node, Drawing::Depth::kOnTop) {}
+    : scene_(scene), node_(node), arrows_(scene, node, /*on_top=*/true) {}
 
 ForceVisual::~ForceVisual() {
   for (const auto& label : labels_) {
-    label->node->detachAllObjects();
-    scene_.destroySceneNode(label->node);
+    Ogre::SceneNode* const node = label->getParentSceneNode();
+    node->detachAllObjects();
+    scene_.destroySceneNode(node);
   }
 }
 
@@ -46,21 +38,29 @@ void ForceVisual::show(const sweep_guard::Interaction& interaction, const geomet
     arrows_.addArrow(from, from + along, kThickness * along.length());
     label(describe(object), from + along, style);
   }
-  for (size_t i = shown_; i < labels_.size(); ++i) labels_[i]->node->setVisible(false);
+  for (size_t i = shown_; i < labels_.size(); ++i) labels_[i]->getParentSceneNode()->setVisible(false);
   arrows_.paint(style.force.color, style.force.color);
   arrows_.show();
 }
 
 void ForceVisual::clear() { show({}, {}, DisplayStyle()); }
 
+void ForceVisual::addLabel() {
+  auto label = std::make_unique<rviz::MovableText>("-");
+  label->showOnTop(true);
+  label->setTextAlignment(rviz::MovableText::H_LEFT, rviz::MovableText::V_ABOVE);
+  node_.createChildSceneNode()->attachObject(label.get());
+  labels_.push_back(std::move(label));
+}
+
 void ForceVisual::label(const std::string& text, const Ogre::Vector3& place, const DisplayStyle& style) {
-  if (shown_ == labels_.size()) labels_.push_back(std::make_unique<Label>(node_));
-  Label& label = *labels_[shown_++];
-  label.text.setCaption(text);
-  label.text.setCharacterHeight(kText);
-  label.text.setColor(style.force.color);
-  label.node->setPosition(place);
-  label.node->setVisible(true);
+  if (shown_ == labels_.size()) addLabel();
+  rviz::MovableText& label = *labels_[shown_++];
+  label.setCaption(text);
+  label.setCharacterHeight(kText);
+  label.setColor(style.force.color);
+  label.getParentSceneNode()->setPosition(place);
+  label.getParentSceneNode()->setVisible(true);
 }
 
 }  // namespace sweep_guard_rviz

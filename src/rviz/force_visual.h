@@ -30,14 +30,13 @@ class ForceVisual {
   size_t shown() const { return shown_; }  ///< number of arrows
 
  private:
-  struct Label;
-
+  void addLabel();
   void label(const std::string& text, const Ogre::Vector3& place, const DisplayStyle& style);
 
   Ogre::SceneManager& scene_;
   Ogre::SceneNode& node_;
   Drawing arrows_;
-  std::vector<std::unique_ptr<Label>> labels_;
+  std::vector<std::unique_ptr<rviz::MovableText>> labels_;  // each on a node of its own
   size_t shown_ = 0;
 };
 

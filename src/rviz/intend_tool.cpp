@@ -14,6 +14,7 @@
 #include <QRegularExpression>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "rviz/ogre_conversions.h"
 #include "rviz/workpieces.h"
 #include "sweep_guard/common/printable.h"
 
@@ -39,9 +40,9 @@ rviz::FloatProperty* length(const char* name, float value, const char* descripti
 IntendTool::IntendTool() {
   shortcut_key_ = 'u';
   rviz::Property* const parent = getPropertyContainer();
-  guard_ = new rviz::StringProperty("Guard", "/sweep_guard", "Name of the guard's node.", parent);
-  mesh_topic_ = topicProperty<sweep_guard::DeformableMesh>("Mesh Topic", "/mesh", "Meshes of the workpieces.", parent);
-  vertices_topic_ = topicProperty<sweep_guard::MeshVertices>("Vertices Topic", "/mesh_vertices",
+  guard_ = new rviz::StringProperty("Guard", "sweep_guard", "Name of the guard's node.", parent);
+  mesh_topic_ = topicProperty<sweep_guard::DeformableMesh>("Mesh Topic", "mesh", "Meshes of the workpieces.", parent);
+  vertices_topic_ = topicProperty<sweep_guard::MeshVertices>("Vertices Topic", "mesh_vertices",
                                                              "Deformations of the meshes.", parent);
   radius_ = length("Radius", 0.005F, "[m] of the brush: triangles that lie wholly inside are meant.", parent);
   depth_ = length("Depth", 0.01F, "[m] that the tool may reach behind the surface.", parent);
@@ -99,14 +100,14 @@ int IntendTool::processMouseEvent(rviz::ViewportMouseEvent& event) {
     return 0;
   }
   if (takes_back) {
-    takeBack(*picked);
+    takeBack(picked->mesh_id);
   } else {
     paint(*picked);
   }
   return Render;
 }
 
-std::optional<SurfacePicker::Picked> IntendTool::pick(rviz::ViewportMouseEvent& event) const {
+std::optional<sweep_guard::Intend> IntendTool::pick(rviz::ViewportMouseEvent& event) const {
   const auto width = static_cast<float>(event.viewport->getActualWidth());
   const auto height = static_cast<float>(event.viewport->getActualHeight());
   const Ogre::Ray ray = event.viewport->getCamera()->getCameraToViewportRay(static_cast<float>(event.x) / width,
@@ -116,17 +117,11 @@ std::optional<SurfacePicker::Picked> IntendTool::pick(rviz::ViewportMouseEvent& 
   });
 }
 
-void IntendTool::paint(const SurfacePicker::Picked& picked) {
-  const bool near = painted_ && painted_->mesh_id == picked.mesh_id &&
-                    (painted_->point_M - picked.point_M).length() < kStep * radius_->getFloat();
+void IntendTool::paint(sweep_guard::Intend intend) {
+  const bool near = painted_ && painted_->mesh_id == intend.mesh_id &&
+                    (toOgre(painted_->center) - toOgre(intend.center)).length() < kStep * radius_->getFloat();
   if (near) return;
-  painted_ = picked;
-  sweep_guard::Intend intend;
-  intend.mesh_id = picked.mesh_id;
-  intend.frame_id = picked.frame;
-  intend.center.x = static_cast<double>(picked.point_M.x);
-  intend.center.y = static_cast<double>(picked.point_M.y);
-  intend.center.z = static_cast<double>(picked.point_M.z);
+  painted_ = intend;
   intend.radius = static_cast<double>(radius_->getFloat());
   intend.depth = static_cast<double>(depth_->getFloat());
   for (const QString& link : links_->getString().split(QRegularExpression("[\\s,]+"))) {
@@ -136,10 +131,10 @@ void IntendTool::paint(const SurfacePicker::Picked& picked) {
   publisher_.publish(intend);
 }
 
-void IntendTool::takeBack(const SurfacePicker::Picked& picked) {
+void IntendTool::takeBack(const std::string& mesh_id) {
   painted_.reset();
   sweep_guard::Intend intend;
-  intend.mesh_id = picked.mesh_id;
+  intend.mesh_id = mesh_id;
   publisher_.publish(intend);
 }
 

@@ -35,9 +35,9 @@ class IntendTool : public rviz::Tool {
   void onInitialize() override;
 
  private:
-  std::optional<SurfacePicker::Picked> pick(rviz::ViewportMouseEvent& event) const;
-  void paint(const SurfacePicker::Picked& picked);
-  void takeBack(const SurfacePicker::Picked& picked);
+  std::optional<sweep_guard::Intend> pick(rviz::ViewportMouseEvent& event) const;
+  void paint(sweep_guard::Intend intend);
+  void takeBack(const std::string& mesh_id);
   void showState(const sweep_guard::Intended& intended);
   std::string guardTopic(const std::string& name) const;
 
@@ -53,7 +53,7 @@ class IntendTool : public rviz::Tool {
   ros::Publisher publisher_;
   ros::Subscriber subscribers_[3];
   SurfacePicker picker_;
-  std::optional<SurfacePicker::Picked> painted_;  // last one of a stroke
+  std::optional<sweep_guard::Intend> painted_;  // last one of a stroke
 };
 
 }  // namespace sweep_guard_rviz

@@ -49,7 +49,6 @@ struct PanelState {
   std::vector<std::string> reasons;  ///< one sentence for each reason of the warning
 
   bool operator==(const PanelState& other) const;
-  bool operator!=(const PanelState& other) const { return !(*this == other); }
 };
 
 /// Computes what the panel shows.

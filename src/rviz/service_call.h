@@ -6,7 +6,7 @@
 #include <string>
 #include <thread>
 
-#include "sweep_guard/common/mutex.h"
+#include "common/guarded_by.h"
 
 namespace sweep_guard_rviz {
 

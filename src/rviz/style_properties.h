@@ -7,6 +7,7 @@
 #include <rviz/properties/int_property.h>
 
 #include <functional>
+#include <vector>
 
 #include "rviz/display_style.h"
 
@@ -23,45 +24,25 @@ class StyleProperties {
 
  private:
   struct ElementProperties {
+    ElementStyle DisplayStyle::*element;
     rviz::BoolProperty* shown;
     rviz::ColorProperty* color;
     rviz::FloatProperty* alpha;
-
-    ElementStyle style() const;
   };
 
-  struct Default {
-    const char* name;
-    const char* description;
-    QColor color;
-    float alpha;
-    bool shown = true;
-  };
-  ElementProperties add(const Default& element);
+  /// Returns the switch.
+  rviz::BoolProperty* add(ElementStyle DisplayStyle::*element, const char* name, const char* description,
+                          const QColor& color, float alpha, bool shown = true);
 
   rviz::Property& parent_;
   std::function<void()> changed_;
-  ElementProperties surface_;
+  std::vector<ElementProperties> elements_;
   rviz::IntProperty* max_edged_;
   rviz::EnumProperty* color_by_;
-  ElementProperties touched_;
-  ElementProperties reflex_;
-  ElementProperties considered_;
-  ElementProperties intended_;
-  ElementProperties allowed_;
-  ElementProperties measured_;
   rviz::IntProperty* history_;
-  ElementProperties predicted_;
-  ElementProperties tool_;
-  ElementProperties ghosts_;
   rviz::IntProperty* max_ghosts_;
-  ElementProperties path_;
-  ElementProperties contacts_;
   rviz::FloatProperty* point_size_;
-  ElementProperties normals_;
   rviz::FloatProperty* normal_length_;
-  ElementProperties depths_;
-  ElementProperties force_;
   rviz::FloatProperty* force_length_;
 };
 

@@ -18,8 +18,8 @@ void SurfacePicker::take(const sweep_guard::MeshVertices::ConstPtr& vertices) {
   if (vertices->positions.size() == 3 * surface->second.mesh->mesh.vertices.size()) surface->second.vertices = vertices;
 }
 
-std::optional<SurfacePicker::Picked> SurfacePicker::pick(const Ogre::Ray& ray, const FindFrame& find) const {
-  std::optional<Picked> picked;
+std::optional<sweep_guard::Intend> SurfacePicker::pick(const Ogre::Ray& ray, const FindFrame& find) const {
+  std::optional<sweep_guard::Intend> picked;
   float nearest = 0.0F;
   for (const auto& [id, surface] : surfaces_) {
     const std::string& frame = surface.vertices ? surface.vertices->header.frame_id : surface.mesh->header.frame_id;
@@ -31,7 +31,13 @@ std::optional<SurfacePicker::Picked> SurfacePicker::pick(const Ogre::Ray& ray, c
     const auto distance = surface.distance(ray_M);
     if (!distance || (picked && *distance >= nearest)) continue;
     nearest = *distance;
-    picked = Picked{id, frame, ray_M.getPoint(nearest)};
+    const Ogre::Vector3 point_M = ray_M.getPoint(nearest);
+    picked.emplace();
+    picked->mesh_id = id;
+    picked->frame_id = frame;
+    picked->center.x = static_cast<double>(point_M.x);
+    picked->center.y = static_cast<double>(point_M.y);
+    picked->center.z = static_cast<double>(point_M.z);
   }
   return picked;
 }

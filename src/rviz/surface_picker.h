@@ -3,6 +3,7 @@
 #include <OgreRay.h>
 #include <OgreVector.h>
 #include <sweep_guard/DeformableMesh.h>
+#include <sweep_guard/Intend.h>
 #include <sweep_guard/MeshVertices.h>
 
 #include <functional>
@@ -19,19 +20,14 @@ class SurfacePicker {
   /// Finds the pose of a frame in the fixed frame. @returns whether it is known
   using FindFrame = std::function<bool(const std::string& frame, Ogre::Vector3& position, Ogre::Quaternion& rotation)>;
 
-  struct Picked {
-    std::string mesh_id;
-    std::string frame;
-    Ogre::Vector3 point_M;  ///< [m], in the frame of the workpiece
-  };
-
   /// Adds or replaces a workpiece; a mesh without vertices and triangles removes it. Ignores invalid ones.
   void take(const sweep_guard::DeformableMesh::ConstPtr& mesh);
   void take(const sweep_guard::MeshVertices::ConstPtr& vertices);
   void clear() { surfaces_.clear(); }
 
-  /// Returns the first point that a ray in the fixed frame meets; empty if it meets no workpiece whose frame is known.
-  std::optional<Picked> pick(const Ogre::Ray& ray, const FindFrame& find) const;
+  /// Returns the first point that a ray in the fixed frame meets as the center of a region, with its workpiece and frame;
+  /// empty if it meets no workpiece whose frame is known.
+  std::optional<sweep_guard::Intend> pick(const Ogre::Ray& ray, const FindFrame& find) const;
 
  private:
   struct PickableSurface {

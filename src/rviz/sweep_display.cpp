@@ -76,17 +76,17 @@ SweepDisplay::~SweepDisplay() {
 
 void SweepDisplay::addTopics() {
   view_topic_ =
-      topic<sweep_guard::View>("View Topic", "/sweep_guard/view", "Tested volumes and results of the guard.", *this);
-  tool_topic_ = topic<sweep_guard::ToolShape>("Tool Topic", "/sweep_guard/tool", "Shape of the tool.", *this);
-  mesh_topic_ = topic<sweep_guard::DeformableMesh>("Mesh Topic", "/mesh", "Meshes of the workpieces.", *this);
+      topic<sweep_guard::View>("View Topic", "sweep_guard/view", "Tested volumes and results of the guard.", *this);
+  tool_topic_ = topic<sweep_guard::ToolShape>("Tool Topic", "sweep_guard/tool", "Shape of the tool.", *this);
+  mesh_topic_ = topic<sweep_guard::DeformableMesh>("Mesh Topic", "mesh", "Meshes of the workpieces.", *this);
   vertices_topic_ =
-      topic<sweep_guard::MeshVertices>("Vertices Topic", "/mesh_vertices", "Deformations of the meshes.", *this);
+      topic<sweep_guard::MeshVertices>("Vertices Topic", "mesh_vertices", "Deformations of the meshes.", *this);
   intended_topic_ =
-      topic<sweep_guard::Intended>("Intended Topic", "/sweep_guard/intended", "Where contact is meant.", *this);
-  interaction_topic_ = topic<sweep_guard::Interaction>("Interaction Topic", "/sweep_guard/interaction",
+      topic<sweep_guard::Intended>("Intended Topic", "sweep_guard/intended", "Where contact is meant.", *this);
+  interaction_topic_ = topic<sweep_guard::Interaction>("Interaction Topic", "sweep_guard/interaction",
                                                        "Force of the workpieces on the tool.", *this);
   touches_topic_ =
-      topic<sweep_guard::Touches>("Touches Topic", "/sweep_guard/touches", "Which triangles were touched.", *this);
+      topic<sweep_guard::Touches>("Touches Topic", "sweep_guard/touches", "Which triangles were touched.", *this);
   for (rviz::RosTopicProperty* each :
        {view_topic_, tool_topic_, mesh_topic_, vertices_topic_, intended_topic_, interaction_topic_, touches_topic_}) {
     connect(each, &rviz::Property::changed, this, [this] {
@@ -267,12 +267,12 @@ void SweepDisplay::place() {
 
 void SweepDisplay::reportInputs() {
   report("View",
-         !view_        ? "no view from " + view_topic_->getTopicStd()
+         !view_        ? "no view from " + subscribers_[0].getTopic()
          : was_silent_ ? "the guard is silent"
                        : problemOf(*view_),
          "received");
-  report("Tool", tool_->hasShape() ? "" : "no tool shape from " + tool_topic_->getTopicStd(), "known");
-  report("Mesh", workpieces_->problem(mesh_topic_->getTopicStd()),
+  report("Tool", tool_->hasShape() ? "" : "no tool shape from " + subscribers_[1].getTopic(), "known");
+  report("Mesh", workpieces_->problem(subscribers_[2].getTopic()),
          std::to_string(drawnTriangles(SurfaceVisual::kSurface)) + " triangles");
   const std::string legend = workpieces_->legend();
   if (touches_subscriber_) report("Touches", "", legend.empty() ? "none" : legend);

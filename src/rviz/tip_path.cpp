@@ -49,10 +49,10 @@ void TipPath::show(const std::vector<geometry_msgs::Pose>& predicted, const Elem
   const double span = std::max(1e-3, toSeconds(newest.stamp - trail_.points().front().stamp));
   for (const Trail::Point& past : trail_.points()) {
     const double age = toSeconds(newest.stamp - past.stamp);
-    measured_.addPoint(toOgre(past.p_W), decay(element.color, static_cast<float>(1.0 - age / span)));
+    measured_.addPoint(toOgre(past.value), decay(element.color, static_cast<float>(1.0 - age / span)));
   }
   if (predicted.empty() || predicted.size() + 1 > kMaxPoints) return;
-  predicted_.addPoint(toOgre(newest.p_W), element.color);
+  predicted_.addPoint(toOgre(newest.value), element.color);
   for (const geometry_msgs::Pose& pose : predicted) {
     predicted_.addPoint(toOgre(pose.position), decay(element.color, 0.6F));
   }

@@ -14,20 +14,17 @@ namespace {
 constexpr double kHeight = 170.0;  // everything is drawn for this height and then scaled
 constexpr double kNarrowest = 300.0;
 
-// The colors of one picture. In contact, ground and ink are swapped twice a second.
-struct Paints {
-  QColor ground;
-  QColor ink;
-  QColor lamp;
-  QColor mark;
-};
+bool isDark(const PanelState& state) { return state.level == WarningLevel::kClear || state.acknowledged; }
 
-Paints paintsOf(const PanelState& state) {
-  const QColor color = colorOf(state.level);
-  if (state.level == WarningLevel::kClear || state.acknowledged)
-    return {backdrop(), QColor(225, 228, 232), color, inkOn(state.level)};
-  if (!state.bright) return {inkOn(state.level), color, color, inkOn(state.level)};
-  return {color, inkOn(state.level), color, inkOn(state.level)};
+// In contact, ground and ink are swapped twice a second.
+QColor groundOf(const PanelState& state) {
+  if (isDark(state)) return backdrop();
+  return state.bright ? colorOf(state.level) : inkOn(state.level);
+}
+
+QColor inkOf(const PanelState& state) {
+  if (isDark(state)) return {225, 228, 232};
+  return state.bright ? inkOn(state.level) : colorOf(state.level);
 }
 
 QPainterPath polygon(const QPointF& center, double radius, int corners, double first_angle) {
@@ -104,12 +101,12 @@ void write(QPainter& painter, const QRectF& place, const QString& text, double s
   painter.drawText(place, Qt::AlignLeft | Qt::AlignVCenter, text);
 }
 
-void drawHousing(QPainter& painter, const PanelState& state, const Paints& paints) {
+void drawHousing(QPainter& painter, const PanelState& state) {
   painter.setPen(Qt::NoPen);
   painter.setBrush(backdrop());
   painter.drawRoundedRect(QRectF(9.0, 4.0, 70.0, 162.0), 16.0, 16.0);
   if (state.level == WarningLevel::kUnknown) {
-    painter.setPen(paints.lamp);
+    painter.setPen(colorOf(state.level));
     write(painter, QRectF(16.0, 20.0, 60.0, 130.0), "?", 96.0, /*bold=*/true);
     return;
   }
@@ -118,9 +115,10 @@ void drawHousing(QPainter& painter, const PanelState& state, const Paints& paint
     if (level != state.level) painter.drawPath(disc(lampPlace(level), level == WarningLevel::kClear ? 15.0 : 22.0));
   }
   const QPointF place = lampPlace(state.level);
-  painter.fillPath(lampShape(state.level, place), paints.lamp);
-  painter.strokePath(lampMark(state.level, place),
-                     QPen(paints.mark, state.level == WarningLevel::kClear ? 3.5 : 6.0, Qt::SolidLine, Qt::RoundCap));
+  painter.fillPath(lampShape(state.level, place), colorOf(state.level));
+  painter.strokePath(
+      lampMark(state.level, place),
+      QPen(inkOn(state.level), state.level == WarningLevel::kClear ? 3.5 : 6.0, Qt::SolidLine, Qt::RoundCap));
 }
 
 }  // namespace
@@ -137,17 +135,16 @@ void TrafficLight::show(const PanelState& state) {
 }
 
 void TrafficLight::paintEvent(QPaintEvent* /*event*/) {
-  const Paints paints = paintsOf(state_);
   QPainter painter(this);
-  painter.fillRect(rect(), paints.ground);
+  painter.fillRect(rect(), groundOf(state_));
   painter.setRenderHint(QPainter::Antialiasing);
   const double scale = std::min(height() / kHeight, width() / kNarrowest);
   painter.translate(0.0, 0.5 * (height() - scale * kHeight));
   painter.scale(scale, scale);
-  drawHousing(painter, state_, paints);
+  drawHousing(painter, state_);
 
   const double width_left = width() / scale - 94.0 - 8.0;
-  painter.setPen(paints.ink);
+  painter.setPen(inkOf(state_));
   write(painter, {94.0, 8.0, width_left, 40.0}, QString::fromStdString(state_.title), 34.0, /*bold=*/true);
   write(painter, {94.0, 50.0, width_left, 80.0}, QString::fromStdString(state_.time), 72.0, /*bold=*/true);
   write(painter, {94.0, 134.0, width_left, 26.0}, QString::fromStdString(state_.meaning), 17.0, /*bold=*/false);

@@ -68,7 +68,7 @@ WarningPanel::WarningPanel(QWidget* parent)
     setTopic(topic_edit_->text().toStdString());
     Q_EMIT configChanged();
   });
-  setTopic("/sweep_guard/warning");
+  setTopic("sweep_guard/warning");
   connect(&timer_, &QTimer::timeout, this, [this] { refresh(currentInstant()); });
   timer_.setTimerType(Qt::PreciseTimer);
   timer_.start(kPeriod);
@@ -130,6 +130,7 @@ void WarningPanel::save(rviz::Config config) const {
 
 void WarningPanel::setTopic(const std::string& topic) {
   topic_ = topic;
+  heard_topic_ = topic;
   topic_edit_->setText(QString::fromStdString(topic));
   guard_.clear();
   newest_.reset();
@@ -138,7 +139,8 @@ void WarningPanel::setTopic(const std::string& topic) {
   outcome_->hide();
   try {
     feed_.listen(topic);
-    if (!topic.empty()) guard_ = ros::names::parentNamespace(ros::names::resolve(topic));
+    if (!topic.empty()) heard_topic_ = ros::names::resolve(topic);
+    guard_ = ros::names::parentNamespace(heard_topic_);
   } catch (const ros::InvalidNameException& error) {
     showOutcome(error.what());
   }
@@ -159,7 +161,7 @@ void WarningPanel::showOutcome(const std::string& outcome) {
 void WarningPanel::refresh(const Instant& now) {
   const std::vector<ReceivedWarning> warnings = feed_.take();
   if (!warnings.empty()) newest_ = warnings.back();
-  state_ = panelState(newest_, now, topic_);
+  state_ = panelState(newest_, now, heard_topic_);
   remember(warnings, now.steady);
   showState(now.steady);
   showForce();
@@ -168,7 +170,7 @@ void WarningPanel::refresh(const Instant& now) {
 
 void WarningPanel::remember(const std::vector<ReceivedWarning>& warnings, SteadyTime now) {
   for (const ReceivedWarning& each : warnings) {
-    const PanelState shown = panelState(each, each.received, topic_);
+    const PanelState shown = panelState(each, each.received, heard_topic_);
     history_.add({each.received.steady, shown.level, shown.silent ? std::nullopt : timeToCollision(each.warning)});
   }
   if (state_.silent) history_.add({now, WarningLevel::kUnknown, std::nullopt});

@@ -49,7 +49,8 @@ class WarningPanel : public rviz::Panel {
   void showOutcome(const std::string& outcome);
 
   std::string topic_;
-  std::string guard_;  // namespace of its services; empty: no guard
+  std::string heard_topic_;  // resolved
+  std::string guard_;        // namespace of its services; empty: no guard
   WarningFeed feed_;
   ForceFeed force_feed_;
   ServiceCall call_;

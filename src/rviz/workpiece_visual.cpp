@@ -61,9 +61,9 @@ WorkpieceVisual::WorkpieceVisual(Ogre::SceneManager& scene, Ogre::SceneNode& roo
       surface_(scene, *node_),
       measured_(scene, *node_),
       predicted_(scene, *node_),
-      points_(scene, *node_, Drawing::Depth::kOnTop),
-      normals_(scene, *node_, Drawing::Depth::kOnTop),
-      depths_(scene, *node_, Drawing::Depth::kOnTop),
+      points_(scene, *node_, /*on_top=*/true),
+      normals_(scene, *node_, /*on_top=*/true),
+      depths_(scene, *node_, /*on_top=*/true),
       label_("-"),
       label_node_(node_->createChildSceneNode()) {
   label_.showOnTop(true);

@@ -1,4 +1,5 @@
 // Starts the player of a bag, records the messages of the guard, and reports them.
+#include <dynamic_reconfigure/Reconfigure.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <spawn.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -18,14 +20,17 @@
 #include <limits>
 #include <sstream>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "recording/object_contacts.h"
 #include "recording/run_node.h"
 #include "session/session_bag.h"
+#include "session/session_files.h"
 #include "session/session_log.h"
 #include "session/session_report.h"
+#include "session/session_start.h"
 #include "session/touch_report.h"
 #include "sound/earcon.h"
 #include "sweep_guard/Contacts.h"
@@ -43,7 +48,10 @@ using sweep_guard_ros::fromMsg;
 constexpr std::uint32_t kQueue = 100000;
 constexpr double kConnectTimeout = 60.0;    // [s] of wall time, for guard and player
 constexpr std::uint32_t kSoundRate = 8000;  // samples per second
-constexpr double kAnswerTimeout = 2.0;      // [s] of wall time, for the last answers
+constexpr double kAnswerTimeout = 2.0;      // [s] of wall time, for answers
+constexpr double kMaxStart = 1e9;           // [s]
+constexpr const char* kHoldTime = "warning/hold_time";
+constexpr double kMaxHoldTime = 60.0;  // [s] that the guard accepts
 
 sweep_guard_core::Time now() { return fromMsg(ros::Time::now()); }
 
@@ -107,17 +115,20 @@ bool drawPictures(std::string folder, std::string name) {
 class ReplayReport {
  public:
   explicit ReplayReport(sweep_guard_ros::ParameterReader& parameters)
-      : path_(parameters.name("bag", "")), output_(parameters.name("output", path_ + ".report")) {
-    parameters.number("rate", 1.0, {1e-3, 1e3});  // of the player, which reports no range
-    const ros::NodeHandle guard(parameters.name("guard", "sweep_guard"));
-    topics_ = readTopics(parameters, guard);
-    bag_ = inspectBag(path_, topics_);
-    if (bag_.meshes == 1 && bag_.vertices == 0 && std::isfinite(guard.param("timing/mesh_timeout", 0.5))) {
-      ROS_WARN(
-          "there are no vertices on %s: after timing/mesh_timeout the workpiece is stale and the level UNKNOWN. Give "
-          "mesh_vertices:=TOPIC, or set timing/mesh_timeout: .inf in your config if the workpiece is rigid",
-          topics_.mesh_vertices.c_str());
+      : files_(bagFiles(parameters.text("bag", ""), parameters.text("folder", "/"))),
+        output_(parameters.name("output", files_.name() + ".report")),
+        rate_(parameters.number("rate", 1.0, {1e-3, 1e3})),  // of the player, which reports no range
+        guard_(parameters.name("guard", "sweep_guard")) {
+    topics_ = readTopics(parameters);
+    const std::chrono::duration<double> start(parameters.number("start", 0.0, {0.0, kMaxStart}));
+    bag_ = inspectSession(files_, topics_, std::chrono::duration_cast<sweep_guard_core::Duration>(start));
+    if (bag_.meshes == 1 && bag_.vertices == 0 && std::isfinite(guard_.param("timing/mesh_timeout", 0.5))) {
+      bag_.missing.push_back(
+          "there are no vertices on " + topics_.mesh_vertices +
+          ": after timing/mesh_timeout the workpiece is stale and the level UNKNOWN. Give mesh_vertices:=TOPIC, or set "
+          "timing/mesh_timeout: .inf in your config if the workpiece is rigid");
     }
+    for (const std::string& missing : bag_.missing) ROS_WARN("%s", missing.c_str());
     listenTo(parameters.text("topics", ""));
     makeFolder();
   }
@@ -135,15 +146,19 @@ class ReplayReport {
 
  private:
   // Listens to the topics of the tool that the guard does not listen to, and leaves them out.
-  SessionTopics readTopics(sweep_guard_ros::ParameterReader& parameters, const ros::NodeHandle& guard) {
+  SessionTopics readTopics(sweep_guard_ros::ParameterReader& parameters) {
     SessionTopics topics;
     topics.tool_pose = parameters.text("tool_pose", "/tool_pose");
     topics.joint_states = parameters.text("joint_states", "/joint_states");
     topics.mesh = parameters.text("mesh", "/mesh");
     topics.mesh_vertices = parameters.text("mesh_vertices", "/mesh_vertices");
-    const auto source = guard.param<std::string>("tool_source", "topic");
-    if (source != "topic") listenTo(std::exchange(topics.tool_pose, ""));
-    if (source != "joint_states" && !guard.param("tool/joint_states", false)) {
+    topics.fixed_frame = guard_.param<std::string>("fixed_frame", topics.fixed_frame);
+    const auto source = guard_.param<std::string>("tool_source", "topic");
+    if (source != "topic") {
+      listenTo(std::exchange(topics.tool_pose, ""));
+      if (const auto frame = guard_.param<std::string>("tool_frame", ""); !frame.empty()) topics.frames = {frame};
+    }
+    if (source != "joint_states" && !guard_.param("tool/joint_states", false)) {
       listenTo(std::exchange(topics.joint_states, ""));
     }
     return topics;
@@ -192,11 +207,46 @@ class ReplayReport {
     const std::string service = ros::names::resolve("pause_playback");
     require([this, &service] { return clock_.getNumPublishers() > 0 && ros::service::exists(service, false); },
             "the bag is not played: no service " + service + ". Each topic of the player needs a subscriber");
+    publishStart();
+    scaleHoldTime();
     std_srvs::SetBool pause;
     pause.request.data = 0;
     playing_ = true;
     if (!ros::service::call(service, pause) && ros::ok()) throw InvalidInput("the player does not answer " + service);
-    ROS_INFO("playing %s: %.1f s", path_.c_str(), sweep_guard_core::toSeconds(bag_.end - bag_.begin));
+    ROS_INFO("playing %s: %.1f s", files_.name().c_str(), sweep_guard_core::toSeconds(bag_.end - bag_.start));
+  }
+
+  // The player knows nothing of what was recorded before its start. Vertices and intentions need their mesh.
+  void publishStart() {
+    const SessionStart start = readStart(files_, topics_, bag_.start);
+    publish(kStaticTransformsTopic, start.transforms);
+    publish(topics_.mesh, start.meshes);
+    if (!start.meshes.empty()) waitUntil([this] { return knows_mesh_; }, kAnswerTimeout);
+    publish(topics_.mesh_vertices, start.vertices);
+    publish(kIntendTopic, start.intends);
+  }
+
+  template <typename Pointer>
+  void publish(const std::string& topic, const std::vector<Pointer>& messages) {
+    if (messages.empty()) return;
+    using Message = std::remove_const_t<typename Pointer::element_type>;
+    const ros::Publisher publisher = node_.advertise<Message>(topic, kQueue);
+    require([&publisher] { return publisher.getNumSubscribers() > 0; }, "nobody subscribes to " + topic);
+    for (const Pointer& message : messages) publisher.publish(message);
+    publishers_.push_back(publisher);
+  }
+
+  // The guard holds a warning by the clock of the machine, which is not that of the session. While it holds one, it
+  // tells nothing of those that are lower.
+  void scaleHoldTime() {
+    if (rate_ == 1.0) return;
+    dynamic_reconfigure::Reconfigure change;
+    change.request.config.doubles.resize(1);
+    change.request.config.doubles[0].name = kHoldTime;
+    change.request.config.doubles[0].value = std::min(guard_.param(kHoldTime, 0.5) / rate_, kMaxHoldTime);
+    if (ros::service::call(guard_.resolveName("set_parameters"), change)) return;
+    ROS_WARN("the guard does not take %s / rate: its warnings last for rate times as long as in the session",
+             kHoldTime);
   }
 
   void listenToTouches() {
@@ -237,21 +287,23 @@ class ReplayReport {
   void report() {
     const std::filesystem::path folder(output_);
     removePictures(folder);
-    if (meshInBag()) touches_.readShapes(path_, topics_);
+    if (meshInBag()) touches_.readShapes(files_, topics_);
     write(folder / "contacts.csv", contactsCsv(log_, bag_.begin));
     write(folder / "levels.csv", levelsCsv(log_, bag_.begin));
     write(folder / "collisions.csv", collisionsCsv(log_, bag_.begin));
     write(folder / "sound.wav", sweep_guard_core::wavFile(soundOf(log_, kSoundRate), kSoundRate));
     write(folder / "touches.csv", touchesCsv(touches_.touches()));
     write(folder / "surfaces.csv", surfacesCsv(touches_));
-    const std::string name = std::filesystem::path(path_).filename();
+    const std::string name = std::filesystem::path(files_.name()).filename();
     std::cout << summary(log_, bag_) << "written to " << output_ << ": "
               << (drawPictures(folder, name) ? "timeline.png, contacts.png, touches.png, " : "no pictures, but ")
               << "contacts.csv, touches.csv, surfaces.csv, levels.csv, collisions.csv, sound.wav" << std::endl;
   }
 
-  std::string path_;
+  SessionFiles files_;
   std::string output_;
+  double rate_;
+  ros::NodeHandle guard_;
   SessionTopics topics_;
   SessionBag bag_;
   SessionLog log_;
@@ -266,6 +318,7 @@ class ReplayReport {
   ros::Subscriber warning_;
   std::vector<ros::Subscriber> touched_;
   std::vector<ros::Subscriber> subscribers_;
+  std::vector<ros::Publisher> publishers_;
 };
 
 }  // namespace

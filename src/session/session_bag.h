@@ -4,31 +4,40 @@
 #include <string>
 #include <vector>
 
+#include "session/session_files.h"
 #include "sweep_guard/common/time.h"
 
 namespace sweep_guard_session {
 
+constexpr const char* kStaticTransformsTopic = "/tf_static";
+
 /// Topics of the guard's inputs, as they are named in the bag.
 struct SessionTopics {
-  std::string tool_pose;      ///< geometry_msgs/PoseStamped; empty: the pose comes from elsewhere
-  std::string mesh;           ///< sweep_guard/DeformableMesh; empty: the workpiece comes from elsewhere
-  std::string mesh_vertices;  ///< sweep_guard/MeshVertices; may be missing in the bag
-  std::string joint_states;   ///< sensor_msgs/JointState; empty: the tool has no joints that move
+  std::string tool_pose;              ///< geometry_msgs/PoseStamped; empty: the pose comes from elsewhere
+  std::string mesh;                   ///< sweep_guard/DeformableMesh; empty: the workpiece comes from elsewhere
+  std::string mesh_vertices;          ///< sweep_guard/MeshVertices; may be missing in the bag
+  std::string joint_states;           ///< sensor_msgs/JointState; empty: the tool has no joints that move
+  std::vector<std::string> frames{};  ///< of the tool, which tf has to place
+  std::string fixed_frame = "world";  ///< needs no transform
 };
 
-/// Summary of a bag.
+/// Summary of a session.
 struct SessionBag {
-  std::vector<sweep_guard_core::Time> poses;  ///< stamps of the poses, ascending
+  std::vector<sweep_guard_core::Time> poses;  ///< stamps of the poses that are played, ascending
   std::size_t meshes = 0;                     ///< number of mesh messages
   std::size_t vertices = 0;                   ///< number of vertex messages
   sweep_guard_core::Time begin;               ///< first message
+  sweep_guard_core::Time start;               ///< it is played from here on
   sweep_guard_core::Time end;                 ///< last message
+  std::vector<std::string> missing{};         ///< what the guard will lack, and what to do, in words
 };
 
 /// Checks a recorded session before it is played.
-/// @throws sweep_guard_core::InvalidInput that says what is wrong and what to do: the file is missing, not regular, no
-///     bag, without index, broken, or empty; a topic is missing or has another type (the message lists the topics);
-///     poses have no stamps, or stamps from another clock than the recorder's
-SessionBag inspectBag(const std::string& path, const SessionTopics& topics);
+/// @param start  after the first message; it is played from there on; >= 0
+/// @throws sweep_guard_core::InvalidInput that says what is wrong and what to do: a topic is missing or has another type (the
+///     message lists the topics); poses have no stamps, or stamps from another clock than the recorder's; the session
+///     ends before the start; or a file is broken
+SessionBag inspectSession(const SessionFiles& files, const SessionTopics& topics,
+                          sweep_guard_core::Duration start = sweep_guard_core::Duration(0));
 
 }  // namespace sweep_guard_session

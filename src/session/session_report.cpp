@@ -53,6 +53,10 @@ std::string levelTable(const SessionLog& log) {
   return table;
 }
 
+std::string startOf(const SessionBag& bag) {
+  return bag.start > bag.begin ? fmt::format(" (played from {:.1f} s on)", seconds(bag.start, bag.begin)) : "";
+}
+
 // Poses that waited are swept at once.
 std::string sweptLine(const SessionLog& log, const SessionBag& bag) {
   const sweep_guard_recording::SweptIntervals& swept = log.swept();
@@ -178,8 +182,10 @@ std::string collisionsCsv(const SessionLog& log, Time begin) {
 
 std::string summary(const SessionLog& log, const SessionBag& bag) {
   const std::vector<Contact> contacts = log.contacts();
-  std::string text = fmt::format("session    {:.1f} s, {} poses, {} meshes, {} updates of vertices\n",
-                                 toSeconds(bag.end - bag.begin), bag.poses.size(), bag.meshes, bag.vertices);
+  std::string text =
+      fmt::format("session    {:.1f} s{}, {} poses, {} meshes, {} updates of vertices\n",
+                  toSeconds(bag.end - bag.begin), startOf(bag), bag.poses.size(), bag.meshes, bag.vertices);
+  for (const std::string& missing : bag.missing) text += "missing    " + missing + '\n';
   text += sweptLine(log, bag);
   text += levelTable(log) + longestUnknown(log, bag.begin);
   text += fmt::format("contacts   {}\n", contacts.size());

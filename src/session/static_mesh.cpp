@@ -12,7 +12,7 @@ namespace {
 // Without a stamp: the workpiece is valid at any time.
 sweep_guard::DeformableMesh readWorkpiece(sweep_guard_ros::ParameterReader& parameters) {
   const sweep_guard_ros::MeshSurface surface =
-      sweep_guard_ros::readMesh(parameters.name("file", ""), sweep_guard_ros::SymbolicLinks::kFollow);
+      sweep_guard_ros::readMesh(parameters.name("file", ""), /*follow_link=*/true);
   const double scale = parameters.number("scale", 1.0, {1e-6, 1e6});
   const Eigen::Vector3d position = parameters.position("position", {0.0, 0.0, 0.0});
   sweep_guard::DeformableMesh message;

@@ -1,14 +1,11 @@
 #include "session/touch_report.h"
 
-#include <rosbag/view.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
 #include "common/csv.h"
-#include "recording/bag.h"
 
 namespace sweep_guard_session {
 
@@ -62,13 +59,10 @@ std::string cornersCsv(const std::string& mesh, const TriangleSurface& surface, 
 
 }  // namespace
 
-void TouchLog::readShapes(const std::string& bag, const SessionTopics& topics) {
-  const std::vector<std::string> names = {topics.mesh, topics.mesh_vertices};
-  sweep_guard_recording::openBag(bag, [&](const rosbag::Bag& open) {
-    for (const rosbag::MessageInstance& message : rosbag::View(open, rosbag::TopicQuery(names))) {
-      if (const auto mesh = message.instantiate<sweep_guard::DeformableMesh>()) take(mesh);
-      if (const auto vertices = message.instantiate<sweep_guard::MeshVertices>()) take(vertices);
-    }
+void TouchLog::readShapes(const SessionFiles& files, const SessionTopics& topics) {
+  files.forEach({topics.mesh, topics.mesh_vertices}, [this](const rosbag::MessageInstance& message) {
+    if (const auto mesh = message.instantiate<sweep_guard::DeformableMesh>()) take(mesh);
+    if (const auto vertices = message.instantiate<sweep_guard::MeshVertices>()) take(vertices);
   });
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "session/session_bag.h"
+#include "session/session_files.h"
 #include "sweep_guard/geometry/mesh_order.h"
 
 namespace sweep_guard_session {
@@ -18,8 +19,7 @@ class TouchLog {
   void take(const sweep_guard::DeformableMesh::ConstPtr& mesh) { meshes_[mesh->id] = mesh; }
   void take(const sweep_guard::MeshVertices::ConstPtr& vertices) { vertices_[vertices->id] = vertices; }
   void take(const sweep_guard::Touches::ConstPtr& touches) { touches_ = *touches; }
-  void readShapes(const std::string& bag,
-                  const SessionTopics& topics);  ///< takes the newest of each workpiece in a bag
+  void readShapes(const SessionFiles& files, const SessionTopics& topics);  ///< takes the newest of each workpiece
 
   const sweep_guard::Touches& touches() const { return touches_; }
 

@@ -37,12 +37,8 @@ template <typename Best>
   return best(best(two, turned<12>(lanes)), turned<6>(two));
 }
 
-struct Lower {
-  [[gnu::always_inline]] Float operator()(const Float& a, const Float& b) const { return min(a, b); }
-};
-struct Upper {
-  [[gnu::always_inline]] Float operator()(const Float& a, const Float& b) const { return max(a, b); }
-};
+constexpr auto kLower = [](const Float& a, const Float& b) __attribute__((always_inline)) { return min(a, b); };
+constexpr auto kUpper = [](const Float& a, const Float& b) __attribute__((always_inline)) { return max(a, b); };
 
 void store(const Float& lower, const Float& upper, const BoxArrays<float>& boxes, std::size_t at) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -91,7 +87,7 @@ bool bound(const float* vertices, std::size_t blocks, const BoxArrays<float>& bo
   for (std::size_t block = 0; block < blocks; ++block, vertices += kFloats) {
     for (std::size_t line = 0; line < kFloats; line += 16) __builtin_prefetch(vertices + kAhead * kFloats + line);
     Bounds one = boundsOf<0, kLoads>(vertices, sums);
-    one = {perAxis(one.lower, Lower()), perAxis(one.upper, Upper())};
+    one = {perAxis(one.lower, kLower), perAxis(one.upper, kUpper)};
     store(one.lower, one.upper, boxes, block);
     all.widen(one.lower, one.upper);
   }
@@ -110,17 +106,15 @@ bool bound(const float* vertices, std::size_t blocks, const BoxArrays<float>& bo
 }
 
 // The corner of each box that is least far beyond each plane.
-struct NearestCorners {
-  NearestCorners(const BoxArrays<const float>& boxes, const Planes& planes) {
-    for (std::size_t i = 0; i < planes.count; ++i) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        from[i][axis] = planes.normal[axis][i] < 0.0F ? boxes.upper[axis] : boxes.lower[axis];
-      }
+using NearestCorners = const float* [kMaxPlanes][3];
+
+void findNearestCorners(const BoxArrays<const float>& boxes, const Planes& planes, NearestCorners& nearest) {
+  for (std::size_t i = 0; i < planes.count; ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      nearest[i][axis] = planes.normal[axis][i] < 0.0F ? boxes.upper[axis] : boxes.lower[axis];
     }
   }
-
-  const float* from[kMaxPlanes][3];
-};
+}
 
 // Handles several independent registers of boxes at a time.
 template <std::size_t registers>
@@ -130,7 +124,7 @@ void classifyBoxesFrom(std::size_t first, const NearestCorners& nearest, const P
   float bit = 1.0F;
   for (std::size_t i = 0; i < planes.count; ++i, bit *= 2.0F) {
     for (std::size_t k = 0; k < registers; ++k) {
-      const auto corner = [&](std::size_t axis) { return load(nearest.from[i][axis] + first + k * kWidth); };
+      const auto corner = [&](std::size_t axis) { return load(nearest[i][axis] + first + k * kWidth); };
       const Float out =
           dot(planes.normal[0][i], planes.normal[1][i], planes.normal[2][i], corner(0), corner(1), corner(2));
       found[k] += out > planes.outside[i] ? broadcast(bit) : Float{};
@@ -142,7 +136,8 @@ void classifyBoxesFrom(std::size_t first, const NearestCorners& nearest, const P
 }
 
 void classifyBoxes(const BoxArrays<const float>& boxes, std::size_t count, const Planes& planes, std::uint16_t* bits) {
-  const NearestCorners nearest(boxes, planes);
+  NearestCorners nearest;
+  findNearestCorners(boxes, planes, nearest);
   std::size_t first = 0;
   for (; first + 4 * kWidth <= count; first += 4 * kWidth) classifyBoxesFrom<4>(first, nearest, planes, bits);
   for (; first < count; first += kWidth) classifyBoxesFrom<1>(first, nearest, planes, bits);
@@ -156,7 +151,7 @@ void scoreBoxesFrom(std::size_t first, const NearestCorners& nearest, const Plan
   for (std::size_t k = 0; k < registers; ++k) most[k] = broadcast(-__builtin_inff());
   for (std::size_t i = 0; i < planes.count; ++i) {
     for (std::size_t k = 0; k < registers; ++k) {
-      const auto corner = [&](std::size_t axis) { return load(nearest.from[i][axis] + first + k * kWidth); };
+      const auto corner = [&](std::size_t axis) { return load(nearest[i][axis] + first + k * kWidth); };
       const Float out =
           dot(planes.normal[0][i], planes.normal[1][i], planes.normal[2][i], corner(0), corner(1), corner(2));
       most[k] = max(most[k], (out - planes.outside[i]) * inverse[i]);
@@ -167,7 +162,8 @@ void scoreBoxesFrom(std::size_t first, const NearestCorners& nearest, const Plan
 
 void scoreBoxes(const BoxArrays<const float>& boxes, std::size_t count, const Planes& planes, const PerPlane& inverse,
                 float* scores) {
-  const NearestCorners nearest(boxes, planes);
+  NearestCorners nearest;
+  findNearestCorners(boxes, planes, nearest);
   std::size_t first = 0;
   for (; first + 4 * kWidth <= count; first += 4 * kWidth) scoreBoxesFrom<4>(first, nearest, planes, inverse, scores);
   for (; first < count; first += kWidth) scoreBoxesFrom<1>(first, nearest, planes, inverse, scores);

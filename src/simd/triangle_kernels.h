@@ -77,34 +77,22 @@ static_assert(kInsideAll == 1U << 15U);  // the sign of a word
 #ifdef __AVX512BW__
 
 // The bits of a cluster's vertices fit into four registers: corners are looked up there instead of in memory.
-class VertexBits {
- public:
-  explicit VertexBits(const std::array<const std::uint16_t*, kClusterBlocks>& bits)
-      : of_{_mm512_loadu_si512(bits[0]), _mm512_loadu_si512(bits[1]), _mm512_loadu_si512(bits[2]),
-            _mm512_loadu_si512(bits[3])} {
-    static_assert(kClusterBlocks == 4 && kBlock == 32 && sizeof(__m512i) == kBlock * sizeof(std::uint16_t));
-  }
-
-  // Returns the bits of the vertices at kBlock places.
-  __m512i operator()(const std::uint8_t* places) const {
-    const __m512i at = _mm512_cvtepu8_epi16(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(places)));
-    const __mmask32 in_last_two = _mm512_test_epi16_mask(at, _mm512_set1_epi16(2 * kBlock));
-    return _mm512_mask_blend_epi16(in_last_two, _mm512_permutex2var_epi16(of_[0], at, of_[1]),
-                                   _mm512_permutex2var_epi16(of_[2], at, of_[3]));
-  }
-
- private:
-  __m512i of_[kClusterBlocks];
-};
-
 TriangleBits classifyTriangles(const ClusterCorners& corners,
                                const std::array<const std::uint16_t*, kClusterBlocks>& bits) {
-  const VertexBits bits_of(bits);
+  static_assert(kClusterBlocks == 4 && kBlock == 32 && sizeof(__m512i) == kBlock * sizeof(std::uint16_t));
+  const __m512i of[] = {_mm512_loadu_si512(bits[0]), _mm512_loadu_si512(bits[1]), _mm512_loadu_si512(bits[2]),
+                        _mm512_loadu_si512(bits[3])};
+  const auto bits_at = [&of](const std::uint8_t* places) {
+    const __m512i at = _mm512_cvtepu8_epi16(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(places)));
+    const __mmask32 in_last_two = _mm512_test_epi16_mask(at, _mm512_set1_epi16(2 * kBlock));
+    return _mm512_mask_blend_epi16(in_last_two, _mm512_permutex2var_epi16(of[0], at, of[1]),
+                                   _mm512_permutex2var_epi16(of[2], at, of[3]));
+  };
   TriangleBits found = {0, 0};
   for (std::size_t first = 0; first < kCluster; first += kBlock) {
-    const __m512i a = bits_of(&corners.places[0][first]);
-    const __m512i b = bits_of(&corners.places[1][first]);
-    const __m512i c = bits_of(&corners.places[2][first]);
+    const __m512i a = bits_at(&corners[0][first]);
+    const __m512i b = bits_at(&corners[1][first]);
+    const __m512i c = bits_at(&corners[2][first]);
     const __mmask32 left = _mm512_testn_epi16_mask(a & b & c, _mm512_set1_epi16(kBeyondAny));
     const __mmask32 inside = _mm512_movepi16_mask(a | b | c);
     found.not_beyond |= std::uint64_t{left} << first;
@@ -122,9 +110,9 @@ TriangleBits classifyTriangles(const ClusterCorners& corners,
     __builtin_memcpy(of + i * kBlock, bits[i], sizeof(of) / kClusterBlocks);
   TriangleBits found = {0, 0};
   for (std::size_t i = 0; i < kCluster; ++i) {
-    const unsigned a = of[corners.places[0][i]];
-    const unsigned b = of[corners.places[1][i]];
-    const unsigned c = of[corners.places[2][i]];
+    const unsigned a = of[corners[0][i]];
+    const unsigned b = of[corners[1][i]];
+    const unsigned c = of[corners[2][i]];
     found.not_beyond |= std::uint64_t{(a & b & c & kBeyondAny) == 0} << i;
     found.corner_inside |= std::uint64_t{((a | b | c) & kInsideAll) != 0} << i;
   }

@@ -7,11 +7,13 @@
 #include <string>
 #include <utility>
 
+#include "common/number_text.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_simulation {
 
 using sweep_guard_core::InvalidInput;
+using sweep_guard_core::TriangleMesh;
 
 namespace {
 
@@ -36,25 +38,26 @@ Eigen::Vector3d sines(double t, const Eigen::Vector3d& frequencies) {
 
 void requireWithin(const char* name, double value, double min, double max) {
   if (value >= min && value <= max) return;
-  throw InvalidInput(std::string(name) + " is " + std::to_string(value) + ", must be in [" + std::to_string(min) +
-                     ", " + std::to_string(max) + "]");
+  throw InvalidInput(std::string(name) + " is " + sweep_guard_core::shortText(value) + ", must be in [" +
+                     sweep_guard_core::shortText(min) + ", " + sweep_guard_core::shortText(max) + "]");
 }
 
 }  // namespace
 
-TopSurface::TopSurface(sweep_guard_core::TriangleMesh mesh_W)
-    : mesh_W_(std::move(mesh_W)), highest_W_(mesh_W_.vertex(mesh_W_.triangles().front().front())) {
-  for (const sweep_guard_core::Triangle& triangle : mesh_W_.triangles()) {
+Eigen::Vector3d highestPoint(const TriangleMesh& mesh_W) {
+  Eigen::Vector3d highest_W = mesh_W.vertex(mesh_W.triangles().front().front());
+  for (const sweep_guard_core::Triangle& triangle : mesh_W.triangles()) {
     for (const std::uint32_t index : triangle) {
-      if (mesh_W_.vertex(index).z() > highest_W_.z()) highest_W_ = mesh_W_.vertex(index);
+      if (mesh_W.vertex(index).z() > highest_W.z()) highest_W = mesh_W.vertex(index);
     }
   }
+  return highest_W;
 }
 
-std::optional<double> TopSurface::height(double x, double y) const {
+std::optional<double> surfaceHeight(const TriangleMesh& mesh_W, double x, double y) {
   std::optional<double> highest;
-  for (const auto& [a, b, c] : mesh_W_.triangles()) {
-    const std::optional<double> height = heightOver(mesh_W_.vertex(a), mesh_W_.vertex(b), mesh_W_.vertex(c), {x, y});
+  for (const auto& [a, b, c] : mesh_W.triangles()) {
+    const std::optional<double> height = heightOver(mesh_W.vertex(a), mesh_W.vertex(b), mesh_W.vertex(c), {x, y});
     if (height) highest = std::max(highest.value_or(*height), *height);
   }
   return highest;
@@ -102,14 +105,14 @@ Eigen::Isometry3d Drilling::pose(double t) const {
   return X_WT;
 }
 
-std::vector<Eigen::Vector3d> holesAround(const TopSurface& surface, double radius, int count) {
-  const Eigen::Vector3d& highest_W = surface.highestPoint();
+std::vector<Eigen::Vector3d> holesAround(const TriangleMesh& mesh_W, double radius, int count) {
+  const Eigen::Vector3d highest_W = highestPoint(mesh_W);
   std::vector<Eigen::Vector3d> holes_W = {highest_W};
   for (int i = 0; i < count; ++i) {
     const double angle = 2.0 * M_PI * i / count;
     const double x = highest_W.x() + radius * std::cos(angle);
     const double y = highest_W.y() + radius * std::sin(angle);
-    const std::optional<double> height = surface.height(x, y);
+    const std::optional<double> height = surfaceHeight(mesh_W, x, y);
     if (height && *height > highest_W.z() - radius) holes_W.emplace_back(x, y, *height);
   }
   return holes_W;

@@ -8,19 +8,11 @@
 
 namespace sweep_guard_simulation {
 
-/// Surface of a workpiece as seen from above (along -z of the fixed frame W).
-class TopSurface {
- public:
-  /// @param mesh_W  the workpiece; its frame M is W
-  explicit TopSurface(sweep_guard_core::TriangleMesh mesh_W);
+/// Returns the highest point of the triangles of a workpiece [m], along z of the fixed frame W, in which the mesh is.
+Eigen::Vector3d highestPoint(const sweep_guard_core::TriangleMesh& mesh_W);
 
-  const Eigen::Vector3d& highestPoint() const { return highest_W_; }  ///< [m], of the triangles
-  std::optional<double> height(double x, double y) const;             ///< [m] at (x, y); empty: no surface there
-
- private:
-  sweep_guard_core::TriangleMesh mesh_W_;
-  Eigen::Vector3d highest_W_;
-};
+/// Returns the height of a workpiece [m] as seen from above at (x, y); empty: no surface there.
+std::optional<double> surfaceHeight(const sweep_guard_core::TriangleMesh& mesh_W, double x, double y);
 
 /// Moves a drill over a workpiece from hole to hole, as a smooth function of time. Above the workpiece the drill
 /// wanders and tilts in all six degrees of freedom. It comes down steadily onto the next hole, plunges, rests in it,
@@ -57,6 +49,6 @@ class Drilling {
 /// @param radius  of the circle [m]
 /// @param count   of points on the circle, >= 0; those without a surface, or more than `radius` below the highest
 ///     point, are left out
-std::vector<Eigen::Vector3d> holesAround(const TopSurface& surface, double radius, int count);
+std::vector<Eigen::Vector3d> holesAround(const sweep_guard_core::TriangleMesh& mesh_W, double radius, int count);
 
 }  // namespace sweep_guard_simulation

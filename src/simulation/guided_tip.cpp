@@ -51,4 +51,17 @@ void GuidedTip::moveTowards(const Eigen::Isometry3d& goal_W, double dt) {
          dt);
 }
 
+GuidedTip::Limits readLimits(sweep_guard_ros::ParameterReader& parameters, const std::string& group,
+                             GuidedTip::Limits limits) {
+  limits.speed = parameters.number(group + "speed", limits.speed, {0.001, 5.0});
+  limits.acceleration = parameters.number(group + "acceleration", limits.acceleration, {0.01, 100.0});
+  limits.turn_rate = parameters.number(group + "turn_rate", limits.turn_rate, {0.01, 20.0});
+  limits.turn_acceleration = parameters.number(group + "turn_acceleration", limits.turn_acceleration, {0.1, 1000.0});
+  return limits;
+}
+
+Eigen::Isometry3d pointingDown(const Vector3d& p_W) {
+  return Eigen::Translation3d(p_W) * Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
+}
+
 }  // namespace sweep_guard_simulation

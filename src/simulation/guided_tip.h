@@ -1,8 +1,10 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <string>
 
 #include "sweep_guard/motion/braking.h"
+#include "sweep_guard/ros/parameters/parameter_reader.h"
 
 namespace sweep_guard_simulation {
 
@@ -40,5 +42,13 @@ class GuidedTip {
   Limits limits_;
   Twist velocity_;
 };
+
+/// Reads limits from private parameters: `speed`, `acceleration`, `turn_rate` and `turn_acceleration` of a group.
+/// @param limits  without a parameter
+GuidedTip::Limits readLimits(sweep_guard_ros::ParameterReader& parameters, const std::string& group,
+                             GuidedTip::Limits limits);
+
+/// Returns the pose of a tip that points down.
+Eigen::Isometry3d pointingDown(const Eigen::Vector3d& p_W);
 
 }  // namespace sweep_guard_simulation

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "simulation/motion_start.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
 
@@ -21,9 +22,6 @@ namespace {
 constexpr double kJoyReminder = 10.0;  // [s]
 constexpr sweep_guard_core::Duration kBacklog =
     std::chrono::milliseconds(100);  // time in which roscpp delivers waiting messages
-
-// Time of arrival: the device may use another clock.
-sweep_guard_core::Time now() { return sweep_guard_ros::fromMsg(ros::Time::now()); }
 
 constexpr double kMarkerReminder = 5.0;  // [s]
 constexpr float kSize = 0.2F;            // [m] larger than the tool, smaller than the view of rviz
@@ -97,15 +95,15 @@ void JoyGuide::move(GuidedTip& tip, double dt) const {
     ROS_WARN_THROTTLE(kJoyReminder, "the tool rests: nobody publishes %s; start the driver of the device",
                       subscriber_.getTopic().c_str());
   }
-  tip.moveAt(joystick_.velocity(now()), dt);
+  tip.moveAt(joystick_.velocity(rosNow()), dt);
 }
 
-void JoyGuide::release() { joystick_.ignoreUntil(now() + kBacklog); }
+void JoyGuide::release() { joystick_.ignoreUntil(rosNow() + kBacklog); }
 
 void JoyGuide::onJoy(const sensor_msgs::Joy::ConstPtr& joy) {
   acknowledge_button_.update(joy->buttons);
   try {
-    joystick_.setAxes(joy->axes, now());
+    joystick_.setAxes(joy->axes, rosNow());  // the device may use another clock
   } catch (const sweep_guard_core::InvalidInput& error) {
     ROS_ERROR_THROTTLE(kJoyReminder, "message on %s refused: %s", subscriber_.getTopic().c_str(), error.what());
   }

@@ -75,9 +75,11 @@ size_t middleOf(const std::vector<Vector3d>& path) {
 
 std::vector<StampedPositions> readJointMotion(const std::string& path, const std::string& topic,
                                               const KinematicTree& tree,
-                                              const std::map<std::string, double>& fixed_joints) {
-  const sweep_guard_ros::JointNames names(tree);
-  JointTimeline timeline(tree, sweep_guard_ros::fixedPositions(tree, fixed_joints), /*root_moves=*/false);
+                                              const std::map<std::string, double>& fixed_joints,
+                                              const std::map<std::string, std::string>& joint_names) {
+  const auto fixed = sweep_guard_ros::fixedPositions(tree, fixed_joints);
+  const sweep_guard_ros::JointNames names(tree, fixed, joint_names);
+  JointTimeline timeline(tree, fixed, /*root_moves=*/false);
   std::vector<JointTimeline::Position> named;
   std::vector<StampedPositions> motion;
   sweep_guard_core::RobotState state;

@@ -18,12 +18,14 @@ using sweep_guard_core::StampedPositions;
 /// with joints of its own. The motion begins when all joints are known, and ends when the first of them ends.
 /// @param topic         empty: the only topic with JointState
 /// @param fixed_joints  positions [rad or m] of joints that the bag need not have
+/// @param joint_names   names of joints in the tree, by their names in the bag; the others have the same name
 /// @returns a state at each stamp of any joint, at least one, in the order of their stamps
 /// @throws sweep_guard_core::InvalidInput as readJointBag() does, if the bag has no position of a joint, or if
 ///     JointTimeline refuses a message
 std::vector<StampedPositions> readJointMotion(const std::string& path, const std::string& topic,
                                               const sweep_guard_core::KinematicTree& tree,
-                                              const std::map<std::string, double>& fixed_joints);
+                                              const std::map<std::string, double>& fixed_joints,
+                                              const std::map<std::string, std::string>& joint_names = {});
 
 /// Where an articulated tool is to meet a workpiece.
 struct Meeting {

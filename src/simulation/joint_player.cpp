@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "recording/run_node.h"
+#include "ros/input/joint_names.h"
 #include "ros/parameters/parameters.h"
 #include "simulation/joint_motion.h"
 #include "simulation/motion_start.h"
@@ -50,8 +51,11 @@ class JointPlayer {
       throw InvalidInput("tool_frame is '" + frame_ +
                          "', and this frame cannot be moved to the workpiece; leave --tool-frame out");
     }
-    for (const auto& variable : guard_.robot->robot.tree.variables()) joints_.push_back(variable.name);
-    motion_ = readJointMotion(bag_, topic_, guard_.robot->robot.tree, guard_.fixed_joints);
+    const sweep_guard_core::KinematicTree& tree = guard_.robot->robot.tree;
+    const sweep_guard_ros::JointNames names(tree, sweep_guard_ros::fixedPositions(tree, guard_.fixed_joints),
+                                            guard_.joint_names);
+    for (size_t i = 0; i < tree.variables().size(); ++i) joints_.push_back(names.inMessages(i));
+    motion_ = readJointMotion(bag_, topic_, tree, guard_.fixed_joints, guard_.joint_names);
     publisher_ = node_.advertise<sensor_msgs::JointState>("joint_states", kQueue);
   }
 

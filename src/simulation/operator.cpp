@@ -55,7 +55,7 @@ class OperatorNode {
         motion_topic_(parameters.text("motion_topic", "")),
         input_(parameters.choice("input", motion_file_.empty() ? "scripted" : "recording",
                                  {"scripted", "recording", "marker", "joy"})),
-        limits_(readLimits(parameters)),
+        limits_(readLimits(parameters, "hand/", {})),
         joystick_(readJoystick(parameters)),
         acknowledge_button_(parameters.integer("joy/acknowledge_button", 0, -1, kMaxAxis)),
         rate_(parameters.number("rate", 100.0, {1.0, 10000.0})),
@@ -74,7 +74,6 @@ class OperatorNode {
   void run() {
     ros::Time::waitForValid();
     if (!start_.awaitWorkpiece()) return;
-    surface_.emplace(start_.mesh_W());
     if (wait_for_guard_ && !start_.awaitGuard()) return;
     if (!guard_.empty()) setTool(*sweep_guard_ros::loadParameters(ros::NodeHandle(guard_)).tool);
     const PoseStream motion = makePoses();
@@ -89,15 +88,6 @@ class OperatorNode {
   }
 
  private:
-  static GuidedTip::Limits readLimits(sweep_guard_ros::ParameterReader& parameters) {
-    GuidedTip::Limits limits;
-    limits.speed = parameters.number("hand/speed", limits.speed, {0.001, 5.0});
-    limits.acceleration = parameters.number("hand/acceleration", limits.acceleration, {0.01, 100.0});
-    limits.turn_rate = parameters.number("hand/turn_rate", limits.turn_rate, {0.01, 20.0});
-    limits.turn_acceleration = parameters.number("hand/turn_acceleration", limits.turn_acceleration, {0.1, 1000.0});
-    return limits;
-  }
-
   static Joystick::Options readJoystick(sweep_guard_ros::ParameterReader& parameters) {
     const auto axes = [&parameters](const std::string& key, const std::array<int, 3>& fallback) {
       const std::vector<int> read = parameters.integers(key, {fallback.begin(), fallback.end()}, -1, kMaxAxis);
@@ -154,7 +144,7 @@ class OperatorNode {
   }
 
   std::vector<Eigen::Vector3d> holes_W() const {
-    std::vector<Eigen::Vector3d> holes_W = holesAround(*surface_, kHoleCircle, kHolesOnCircle);
+    std::vector<Eigen::Vector3d> holes_W = holesAround(start_.mesh_W(), kHoleCircle, kHolesOnCircle);
     const auto first = static_cast<size_t>(first_hole_) % holes_W.size();
     std::rotate(holes_W.begin(), holes_W.begin() + static_cast<std::ptrdiff_t>(first), holes_W.end());
     return holes_W;
@@ -179,17 +169,12 @@ class OperatorNode {
   }
 
   PoseStream playRecording() const {
-    Replay::Options options;
-    options.loop = loop_;
-    options.target_W = surface_->highestPoint() - kDepth * Eigen::Vector3d::UnitZ();
-    return replayed(recording_, options);
+    return replayed(recording_, loop_, highestPoint(start_.mesh_W()) - kDepth * Eigen::Vector3d::UnitZ());
   }
 
-  // Returns a pose of the tip that points down.
   Eigen::Isometry3d aboveTheWorkpiece() const {
     const double clearance = kClearance + kRisePerWidth * radial_extent_;
-    return Eigen::Translation3d(surface_->highestPoint() + clearance * Eigen::Vector3d::UnitZ()) *
-           Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
+    return pointingDown(highestPoint(start_.mesh_W()) + clearance * Eigen::Vector3d::UnitZ());
   }
 
   bool perform(const PoseStream& motion) {
@@ -232,7 +217,6 @@ class OperatorNode {
   bool intend_;
   std::string guard_;  // the operator moves its tool; empty: a tool with the tip at the origin
   std::vector<StampedPose> recording_;
-  std::optional<TopSurface> surface_;
   Eigen::Vector3d p_TTip_ = Eigen::Vector3d::Zero();  // [m]; the motion is that of the tip
   double radial_extent_ = 0.0;                        // [m]
   ros::NodeHandle node_;

@@ -1,6 +1,9 @@
 #include "simulation/pose_stream.h"
 
+#include <chrono>
 #include <utility>
+
+#include "simulation/playback.h"
 
 namespace sweep_guard_simulation {
 
@@ -8,18 +11,20 @@ using sweep_guard_core::StampedPose;
 
 namespace {
 
-Eigen::Vector3d lowestTip(const std::vector<StampedPose>& motion, sweep_guard_core::Duration window) {
+constexpr sweep_guard_core::Duration kWindow = std::chrono::seconds(5);  // from the first pose
+
+Eigen::Vector3d lowestTip(const std::vector<StampedPose>& motion) {
   Eigen::Vector3d lowest = motion.front().X_WT.translation();
   for (const StampedPose& pose : motion) {
-    if (pose.stamp - motion.front().stamp > window) break;
+    if (pose.stamp - motion.front().stamp > kWindow) break;
     if (pose.X_WT.translation().z() < lowest.z()) lowest = pose.X_WT.translation();
   }
   return lowest;
 }
 
-std::vector<StampedPose> moved(std::vector<StampedPose> motion, const Replay::Options& options) {
+std::vector<StampedPose> moved(std::vector<StampedPose> motion, const Eigen::Vector3d& target_W) {
   if (motion.empty()) return motion;
-  const Eigen::Vector3d shift = options.target_W - lowestTip(motion, options.window);
+  const Eigen::Vector3d shift = target_W - lowestTip(motion);
   for (StampedPose& pose : motion) pose.X_WT.pretranslate(shift);
   return motion;
 }
@@ -30,9 +35,6 @@ sweep_guard_core::Time stampOf(long sample, double rate) {
 
 }  // namespace
 
-Replay::Replay(std::vector<StampedPose> motion, const Options& options)
-    : playback_(moved(std::move(motion), options), options.loop) {}
-
 PoseStream sampled(const Drilling& drilling, double rate, bool loop) {
   return [drilling, rate, loop, sample = 0L]() mutable -> std::optional<StampedPose> {
     const double t = static_cast<double>(sample) / rate;
@@ -41,8 +43,8 @@ PoseStream sampled(const Drilling& drilling, double rate, bool loop) {
   };
 }
 
-PoseStream replayed(std::vector<StampedPose> poses, const Replay::Options& options) {
-  return [replay = Replay(std::move(poses), options)]() mutable { return replay.next(); };
+PoseStream replayed(std::vector<StampedPose> motion, bool loop, const Eigen::Vector3d& target_W) {
+  return [playback = Playback(moved(std::move(motion), target_W), loop)]() mutable { return playback.next(); };
 }
 
 PoseStream guided(const GuidedTip& tip, double rate, Guide guide) {

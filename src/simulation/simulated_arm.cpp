@@ -20,7 +20,8 @@ class SimulatedArm {
   explicit SimulatedArm(sweep_guard_ros::ParameterReader& parameters)
       : frame_(parameters.name("frame", "world")),
         rate_(parameters.number("rate", 100.0, {1.0, 10000.0})),
-        tip_(poseAt(parameters.position("home", {0.0, 0.0, 0.7})), readLimits(parameters)) {
+        tip_(pointingDown(parameters.position("home", {0.0, 0.0, 0.7})),
+             readLimits(parameters, "", {0.5, 2.0, 3.0, 12.0})) {
     publisher_ = node_.advertise<geometry_msgs::PoseStamped>("tool_pose", 100);
     subscriber_ = node_.subscribe("command", 1, &SimulatedArm::onCommand, this, ros::TransportHints().tcpNoDelay());
   }
@@ -38,20 +39,6 @@ class SimulatedArm {
   }
 
  private:
-  static GuidedTip::Limits readLimits(sweep_guard_ros::ParameterReader& parameters) {
-    GuidedTip::Limits limits{0.5, 2.0, 3.0, 12.0};
-    limits.speed = parameters.number("speed", limits.speed, {0.001, 5.0});
-    limits.acceleration = parameters.number("acceleration", limits.acceleration, {0.01, 100.0});
-    limits.turn_rate = parameters.number("turn_rate", limits.turn_rate, {0.01, 20.0});
-    limits.turn_acceleration = parameters.number("turn_acceleration", limits.turn_acceleration, {0.1, 1000.0});
-    return limits;
-  }
-
-  // Points down.
-  static Eigen::Isometry3d poseAt(const Eigen::Vector3d& p_W) {
-    return Eigen::Translation3d(p_W) * Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
-  }
-
   void onCommand(const geometry_msgs::PoseStamped::ConstPtr& command) {
     Eigen::Isometry3d goal_W;
     tf2::fromMsg(command->pose, goal_W);

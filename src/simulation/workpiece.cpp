@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "common/number_text.h"
 #include "common/xyz.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/tool/mesh_file.h"
@@ -80,8 +81,8 @@ std::vector<Triangle> gridTriangles(const Grid& grid) {
 
 void requireSize(const std::string& name, double value, double min, double max) {
   if (value >= min && value <= max) return;
-  throw InvalidInput(name + " of the workpiece is " + std::to_string(value) + ", must be in [" + std::to_string(min) +
-                     ", " + std::to_string(max) + "]");
+  throw InvalidInput(name + " of the workpiece is " + sweep_guard_core::shortText(value) + ", must be in [" +
+                     sweep_guard_core::shortText(min) + ", " + sweep_guard_core::shortText(max) + "]");
 }
 
 }  // namespace
@@ -116,7 +117,7 @@ Workpiece Workpiece::hull(int triangles, const Options& options) {
 }
 
 Workpiece Workpiece::fromFile(const std::string& path, const Options& options) {
-  sweep_guard_ros::MeshSurface surface = sweep_guard_ros::readMesh(path, sweep_guard_ros::SymbolicLinks::kFollow);
+  sweep_guard_ros::MeshSurface surface = sweep_guard_ros::readMesh(path, /*follow_link=*/true);
   try {
     Workpiece workpiece(surface.vertices, std::move(surface.triangles), options);
     workpiece.makeSway(options);

@@ -47,12 +47,12 @@ void append(std::string& bytes, std::uint32_t value, int count) {
 
 }  // namespace
 
-Earcon earconOf(const SoundCue& cue, bool clear_tick) {
-  switch (cue.level) {
+Earcon earconOf(const HeardWarning& warning, bool clear_tick) {
+  switch (warning.level) {
     case WarningLevel::kClear:
       return clear_tick ? kTick : kSilence;
     case WarningLevel::kConsidered:
-      return {periodOf(cue.time_to_collision), 0.06, 800.0, 800.0, cue.acknowledged ? kQuieter * 0.8 : 0.8};
+      return {periodOf(warning.time_to_collision), 0.06, 800.0, 800.0, warning.acknowledged ? kQuieter * 0.8 : 0.8};
     case WarningLevel::kReflex:
       return {kFastPeriod, 0.06, 1000.0, 1000.0, 1.0};
     case WarningLevel::kContact:

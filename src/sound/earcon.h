@@ -1,21 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "sweep_guard/common/time.h"
-#include "sweep_guard/common/warning_level.h"
+#include "monitor/warning_merger.h"
 
 namespace sweep_guard_core {
-
-/// What an operator is to hear of.
-struct SoundCue {
-  WarningLevel level = WarningLevel::kUnknown;
-  std::optional<Duration> time_to_collision;  ///< at kConsidered and kReflex; empty: not known
-  bool acknowledged = false;                  ///< of kConsidered
-};
 
 /// A beep that repeats, in two halves, each of one tone.
 struct Earcon {
@@ -28,10 +19,10 @@ struct Earcon {
   bool steady() const { return length >= period; }
 };
 
-/// Returns how a level sounds, like a parking aid: beeps that follow each other faster the sooner the collision is, a steady
+/// Returns how a warning sounds, like a parking aid: beeps that follow each other faster the sooner the collision is, a steady
 /// tone in contact, a low double tone for kUnknown, a soft tick every 2 s for kClear. What is acknowledged is quieter.
 /// @param clear_tick  false: kClear is silent
-Earcon earconOf(const SoundCue& cue, bool clear_tick);
+Earcon earconOf(const HeardWarning& warning, bool clear_tick);
 
 /// Returns the sound at one moment, in [-1, 1]. Beeps begin and end within 4 ms without a click.
 /// @param time  [s] since the begin of a beep, >= 0

@@ -24,7 +24,7 @@ class MessageWindowTest : public ::testing::Test {
     return contents;
   }
 
-  Window window_{{/*length=*/10s, /*max_size=*/100}};
+  Window window_{/*length=*/10s, /*max_size=*/100};
 };
 
 TEST_F(MessageWindowTest, KeepsTheLastSecondsInTheirOrder) {

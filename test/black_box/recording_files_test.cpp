@@ -40,7 +40,7 @@ TEST(RecordingFilesTest, OtherNamesAreNotTakenForThem) {
 }
 
 TEST(RecordingFilesTest, TheOldestAreDeletedAndAsFewAsSuffice) {
-  const std::vector<StoredRecording> stored = {{"c", 30}, {"a", 10}, {"b", 20}};
+  const RecordingSizes stored = {{"c", 30}, {"a", 10}, {"b", 20}};
   EXPECT_EQ(recordingsToDelete(stored, 100, 40), std::vector<std::string>{});
   EXPECT_EQ(recordingsToDelete(stored, 100, 41), (std::vector<std::string>{"a"}));
   EXPECT_EQ(recordingsToDelete(stored, 100, 51), (std::vector<std::string>{"a", "b"}));

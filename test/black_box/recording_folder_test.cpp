@@ -85,7 +85,7 @@ TEST_F(RecordingFolderTest, AHundredContactsInARowStayWithinTheQuotaAndTheNewest
     ASSERT_LE(size, 7 * kSize + 1);
   }
   std::set<std::string> names;
-  for (const StoredRecording& recording : folder.stored()) names.insert(recording.name);
+  for (const auto& [name, size] : folder.stored()) names.insert(name);
   EXPECT_EQ(names.size(), 7U);
   for (int i = 93; i < 100; ++i) EXPECT_EQ(names.count(nameOfEvent(i)), 1U);
 }

@@ -44,6 +44,14 @@ TEST(NumberTextTest, WritesTheFewestDigitsThatAreReadAsTheSameNumber) {
   }
 }
 
+TEST(NumberTextTest, WritesANumberForPeopleWithSixDigitsAtMost) {
+  EXPECT_EQ(shortText(1e227), "1e+227");
+  EXPECT_EQ(shortText(0.1 + 0.2), "0.3");
+  EXPECT_EQ(shortText(-12345.678), "-12345.7");
+  EXPECT_EQ(shortText(3e-05), "3e-05");
+  EXPECT_EQ(shortText(std::numeric_limits<double>::infinity()), "inf");
+}
+
 TEST(NumberTextTest, WritesAPointInEveryLocale) {
   struct Comma : std::numpunct<char> {
     char do_decimal_point() const override { return ','; }

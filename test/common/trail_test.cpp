@@ -13,7 +13,7 @@ TEST(TrailTest, KeepsTwoSecondsAtAboutFiftyPointsPerSecond) {
   for (int ms = 0; ms <= 5000; ++ms) trail.add(Time(milliseconds(ms)), {0.001 * ms, 0.0, 0.0});
   EXPECT_NEAR(static_cast<double>(trail.points().size()), 2.0 / 0.019, 2.0);
   EXPECT_GE(trail.points().front().stamp, Time(milliseconds(3000)));
-  EXPECT_EQ(trail.points().back().p_W.x(), 5.0);
+  EXPECT_EQ(trail.points().back().value.x(), 5.0);
 }
 
 TEST(TrailTest, StartsAnewWhenTimeGoesBack) {

@@ -28,10 +28,11 @@ struct Variant {
 
 std::ostream& operator<<(std::ostream& stream, const Variant& variant) { return stream << variant.name; }
 
-Variant selectVariant(const std::string& gl_context, const std::string& name, const SelectDetector::Options& options) {
+Variant selectVariant(const std::string& gl_context, const std::string& name, const DetectorOptions& options,
+                      size_t hit_records = 256) {
   const auto contexts = [gl_context] { return makeOffscreenContext(gl_context); };
   return {"select_" + name + gl_context, gl_context,
-          [=] { return std::make_unique<SelectDetector>(options, contexts); }};
+          [=] { return std::make_unique<SelectDetector>(options, contexts, hit_records); }};
 }
 
 // Every detector by name, and on every context the ways of `select` that no name gives.
@@ -49,9 +50,9 @@ std::vector<Variant> variants() {
   for (const std::string& gl_context : offscreenContextNames()) {
     all.push_back(selectVariant(gl_context, "on_", {}));
     all.push_back(selectVariant(gl_context, "without_cull_on_", {/*cull=*/false}));
-    all.push_back(selectVariant(gl_context, "one_by_one_on_", {/*cull=*/true, /*block=*/1}));
+    all.push_back(selectVariant(gl_context, "one_by_one_on_", {/*cull=*/true, gl_context, /*triangles_per_name=*/1}));
     all.push_back(selectVariant(gl_context, "in_sevens_with_room_for_two_hits_on_",
-                                {/*cull=*/true, /*block=*/7, /*hit_records=*/2}));
+                                {/*cull=*/true, gl_context, /*triangles_per_name=*/7}, /*hit_records=*/2));
   }
   return all;
 }

@@ -200,7 +200,7 @@ TEST(InsideTest, OfACubeWithoutALidIsUntestedInTheMouthAndOutsideAboveIt) {
 
 TEST(InsideTest, OfASheetOrOfASurfaceThatIsSaidToBeOpenIsNothing) {
   for (const double z : {-1e-3, 1e-3}) EXPECT_FALSE(insideOf(plate(1.0, 10), 0.01, 0.02, z));
-  EXPECT_FALSE(inside(cubeSurface(0.2).mesh(SurfaceKind::kSheet), {0.0, 0.0, 0.0}));
+  EXPECT_FALSE(inside(cubeSurface(0.2).mesh(/*is_sheet=*/true), {0.0, 0.0, 0.0}));
 }
 
 }  // namespace

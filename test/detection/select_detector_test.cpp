@@ -71,7 +71,7 @@ TEST_P(SelectDetectorTest, FindsTheTrianglesThatTheDrillMeets) {
 
 // Two records hold 8 words: the canary and one hit.
 TEST_P(SelectDetectorTest, FindsAllInABufferThatHoldsTwo) {
-  SelectDetector detector({/*cull=*/true, /*block=*/64, /*hit_records=*/2}, contexts());
+  SelectDetector detector({}, contexts(), /*hit_records=*/2);
   EXPECT_EQ(detector.detect(hull(), sweptDrill()).triangles, expected());
 }
 
@@ -170,7 +170,7 @@ TEST_P(SelectDetectorTest, FollowsAChangeOfTopology) {
 // Small numbers of triangles, on both sides of the size of a block.
 TEST_P(SelectDetectorTest, FindsEachTriangleWhereverItIsInABlock) {
   for (const int block : {1, 2, 3, 64}) {
-    SelectDetector detector({/*cull=*/false, block}, contexts());
+    SelectDetector detector({/*cull=*/false, GetParam(), block}, contexts());
     for (const std::uint32_t count : {1U, 2U, 3U, 4U, 63U, 64U, 65U, 128U, 129U}) {
       for (const std::uint32_t met : {0U, count / 2, count - 1}) {
         std::vector<Eigen::Vector3d> vertices(count, Eigen::Vector3d(5, 5, 5));
@@ -191,7 +191,7 @@ TEST(SelectDetectorTest, WhatWasDrawnBeforeLeavesNoInflation) {
   const SweptVolume across_M = sweptVolume(ConvexShape::cylinder(0.01, 0.1), Motion{}, VolumeKind::kObbPlanes);
   SweptVolume far_M = across_M;
   far_M.box.X_MB.translation().z() += 1.0;
-  SelectDetector detector({});
+  SelectDetector detector({}, makeOsMesaContext);
   const Detection drawn = detector.detect(mesh, across_M);
   EXPECT_EQ(drawn.triangles.size(), 1U);
   EXPECT_GT(drawn.inflation, 0.0);

@@ -16,6 +16,11 @@ using sweep_guard_core::WarningLevel;
 const AlarmRule& kReflexRule = alarmRules()[0];
 const AlarmRule& kConsideredRule = alarmRules()[1];
 
+struct Episode {
+  ObstaclePlacement placement;
+  sweep_guard_recording::LevelTrace levels;
+};
+
 /// From 0 to 8 s, or to a contact, with these levels from these times [ms] on, recorded every 100 ms and once after.
 Episode episode(const std::vector<std::pair<int, WarningLevel>>& levels, std::optional<int> contact = std::nullopt) {
   Episode episode;
@@ -29,6 +34,24 @@ Episode episode(const std::vector<std::pair<int, WarningLevel>>& levels, std::op
     episode.levels.add(at(ms), level);
   }
   return episode;
+}
+
+std::optional<sweep_guard_core::Duration> leadOf(const Episode& episode, const AlarmRule& rule) {
+  return leadOf(episode.placement.contact.value(), episode.levels, rule);
+}
+
+size_t countFalseAlarms(const Episode& episode, const AlarmRule& rule) {
+  return countFalseAlarms(episode.placement, episode.levels, rule);
+}
+
+AlarmStatistics alarmStatistics(const std::vector<Episode>& episodes, const AlarmRule& rule) {
+  std::vector<ObstaclePlacement> placements;
+  std::vector<sweep_guard_recording::LevelTrace> levels;
+  for (const Episode& episode : episodes) {
+    placements.push_back(episode.placement);
+    levels.push_back(episode.levels);
+  }
+  return alarmStatistics(placements, levels, rule);
 }
 
 TEST(AlarmStatisticsTest, LeadIsCountedFromTheAlarmThatLastsUntilContact) {
@@ -90,7 +113,7 @@ TEST(AlarmStatisticsTest, SumUpEpisodes) {
 }
 
 TEST(AlarmStatisticsTest, AreUnknownOfNothing) {
-  const AlarmStatistics none = alarmStatistics({}, kReflexRule);
+  const AlarmStatistics none = alarmStatistics({}, {}, kReflexRule);
   EXPECT_TRUE(std::isnan(none.falseAlarmsPerMinute()));
   EXPECT_TRUE(std::isnan(none.warnedAhead(0.1)));
 }

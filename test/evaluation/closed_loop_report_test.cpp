@@ -85,9 +85,10 @@ TEST(ClosedLoopReportTest, SumsTheRecordingsButNotTheKinds) {
 TEST(ClosedLoopReportTest, CountsARecordingTheSameEveryTime) {
   ClosedLoopSetup setup;
   setup.random_retreats = 1;
+  setup.placements = 6;
   size_t left_out = 0;
   const auto count = [&] {
-    return closedLoopCsv(countClosedLoops({{"hand", winding()}}, setup, {6, 1}, left_out, [](size_t) {}));
+    return closedLoopCsv(countClosedLoops({{"hand", winding()}}, setup, left_out, [](size_t) {}));
   };
   const std::string csv = count();
   EXPECT_EQ(csv, count());

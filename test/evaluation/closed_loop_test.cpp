@@ -53,8 +53,8 @@ TEST_F(ClosedLoopTest, WithAGuardItStopsAtTheStandoff) {
   LoopScene scene = wallAt(0.1);
   ClosedLoop loop = loopBefore(scene);
   DelayedGuardOptions guard;
-  guard.motion.dead_time = RobotDelays{}.dead_time;
-  guard.motion.time_constant = RobotDelays{}.lag;
+  guard.motion.dead_time = RobotOptions{}.dead_time;
+  guard.motion.time_constant = RobotOptions{}.lag;
   loop.addGuard(guard);
   EXPECT_FALSE(push(loop, 0.2, 400));
   const double gap = scene.separationAt(loop.X_MT()).gap;
@@ -88,22 +88,26 @@ TEST_F(ClosedLoopTest, ASurfaceThatComesReachesAToolAtRest) {
 // Of a hand that goes through a figure of eight for a minute.
 class ClosedLoopEpisodeTest : public testing::Test {
  protected:
-  ClosedLoopEpisodeTest() : driven_(drive(RecordedMotion(winding()), setup_.limits, setup_.delays)) {
-    for (const ObstaclePlacement& placement : placeObstacles(RecordedMotion(driven_.path), setup_.shape, {24, 1})) {
-      if (const auto begin = beginOf(driven_, placement, setup_)) placements_.push_back(*begin);
+  ClosedLoopEpisodeTest() : driven_(drive(RecordedMotion(winding()), setup_.robot)) {
+    for (const ObstaclePlacement& placement : placeObstacles(RecordedMotion(driven_.path), setup_.shape, 24, 1)) {
+      const auto begin = beginOf(driven_, placement, setup_);
+      if (!begin) continue;
+      placed_.push_back(placement);
+      placements_.push_back({placement.obstacle, *begin, placement.end, placement.contact});
     }
   }
 
   ClosedLoopSetup setup_;
   DrivenRobot driven_;
-  std::vector<LoopPlacement> placements_;
+  std::vector<ObstaclePlacement> placed_;
+  std::vector<ObstaclePlacement> placements_;  // the same from where their episodes begin
 };
 
 TEST_F(ClosedLoopEpisodeTest, TheGuardKeepsTheToolOffEverySquareThatItRunsIntoWithoutIt) {
   size_t met = 0;
-  for (const LoopPlacement& placement : placements_) {
-    met += runEpisode(driven_, placement, setup_, {SurfaceMotionKind::kRests, false, 1}).contact ? 1 : 0;
-    const ClosedLoopEpisode guarded = runEpisode(driven_, placement, setup_, {SurfaceMotionKind::kRests, true, 1});
+  for (const ObstaclePlacement& placement : placements_) {
+    met += runEpisode(driven_, placement, setup_, {/*surface_comes=*/false, false, 1}).contact ? 1 : 0;
+    const ClosedLoopEpisode guarded = runEpisode(driven_, placement, setup_, {/*surface_comes=*/false, true, 1});
     EXPECT_FALSE(guarded.contact);
     EXPECT_LT(guarded.standoff_speed, 0.001);
     EXPECT_EQ(guarded.free_changed, 0U);
@@ -113,9 +117,9 @@ TEST_F(ClosedLoopEpisodeTest, TheGuardKeepsTheToolOffEverySquareThatItRunsIntoWi
 }
 
 TEST_F(ClosedLoopEpisodeTest, WithoutAGuardTheContactIsWhereThePlacementHasIt) {
-  for (const LoopPlacement& placement : placements_) {
-    const ClosedLoopEpisode episode = runEpisode(driven_, placement, setup_, {SurfaceMotionKind::kRests, false, 1});
-    EXPECT_EQ(episode.contact.has_value(), placement.placement.contact.has_value());
+  for (const ObstaclePlacement& placement : placements_) {
+    const ClosedLoopEpisode episode = runEpisode(driven_, placement, setup_, {/*surface_comes=*/false, false, 1});
+    EXPECT_EQ(episode.contact.has_value(), placement.contact.has_value());
     EXPECT_FALSE(episode.slowed);
   }
 }
@@ -123,19 +127,19 @@ TEST_F(ClosedLoopEpisodeTest, WithoutAGuardTheContactIsWhereThePlacementHasIt) {
 // A tool that comes near at full speed when the square appears could not be stopped by anything.
 TEST_F(ClosedLoopEpisodeTest, BeginsWhereAGuardHasChangedNothing) {
   size_t earlier = 0;
-  for (const LoopPlacement& placement : placements_) {
-    const size_t begin = driven_.cycleAt(placement.placement.begin);
-    ASSERT_LE(placement.begin, begin);
-    earlier += placement.begin < begin ? 1 : 0;
+  for (size_t i = 0; i < placements_.size(); ++i) {
+    const Time begin = driven_.cycles[driven_.cycleAt(placed_[i].begin)].time;
+    ASSERT_LE(placements_[i].begin, begin);
+    earlier += placements_[i].begin < begin ? 1 : 0;
   }
   EXPECT_LT(earlier, placements_.size() / 2);
-  ObstaclePlacement ahead = placements_[0].placement;
+  ObstaclePlacement ahead = placed_[0];
   const size_t cycle = driven_.cycleAt(ahead.begin);
   const Vector3d v_W = driven_.cycles[cycle].command_W.v_W;
   const Vector3d tip_W = driven_.cycles[cycle].robot.pose().translation();
   ahead.obstacle = squareAt(tip_W + 0.02 * v_W.normalized(), v_W.normalized(), 0.1);
   const auto begin = beginOf(driven_, ahead, setup_);
-  EXPECT_TRUE(!begin || begin->begin < cycle);
+  EXPECT_TRUE(!begin || *begin < driven_.cycles[cycle].time);
 }
 
 }  // namespace

@@ -7,11 +7,11 @@
 namespace sweep_guard_evaluation {
 namespace {
 
-constexpr RobotLimits kFastRobot = {10.0, 100.0, 1e4, 1e5};
+constexpr RobotOptions kFastRobot = {10.0, 100.0, 1e4, 1e5};
 
 TEST(DrivenRobotTest, FollowsTheHandLateAndAtItsSpeed) {
   const RecordedMotion motion(straightMotion(0.1, milliseconds(20), seconds(2)));
-  const DrivenRobot driven = drive(motion, kFastRobot, {milliseconds(20), milliseconds(30)});
+  const DrivenRobot driven = drive(motion, kFastRobot);
   EXPECT_EQ(driven.cycles.size(), 200U);
   EXPECT_EQ(driven.path.size(), 2001U);
   EXPECT_NEAR(driven.path.back().X_WT.translation().x(), 0.2 - 0.1 * 0.05, 1e-4);
@@ -25,7 +25,7 @@ TEST(DrivenRobotTest, BeginsAtRestAfterAGapWhichIsLeftOut) {
     pose.X_WT.translation().y() = 1.0;
     poses.push_back(pose);
   }
-  const DrivenRobot driven = drive(RecordedMotion(poses), kFastRobot, {});
+  const DrivenRobot driven = drive(RecordedMotion(poses), kFastRobot);
   ASSERT_EQ(driven.cycles.size(), 200U);
   const size_t after = driven.cycleAt(Time(seconds(3)));
   ASSERT_EQ(after, 100U);
@@ -35,8 +35,8 @@ TEST(DrivenRobotTest, BeginsAtRestAfterAGapWhichIsLeftOut) {
 }
 
 TEST(DrivenRobotTest, CommandsAreWithinTheLimitsOfTheRobot) {
-  const RobotLimits limits{0.1, 0.2, 0.5, 1.0};
-  const DrivenRobot driven = drive(RecordedMotion(winding()), limits, {});
+  const RobotOptions limits{0.1, 0.2, 0.5, 1.0};
+  const DrivenRobot driven = drive(RecordedMotion(winding()), limits);
   sweep_guard_core::Twist last_W;
   double fastest = 0.0;
   for (const DrivenRobot::Cycle& cycle : driven.cycles) {

@@ -75,7 +75,7 @@ TEST_F(EvaluationDataTest, TheDefaultPredictorIsAheadOfHoldingAndOfConstantVeloc
 
 TEST_F(EvaluationDataTest, EveryContactIsWarnedOfByTheReflexWarning) {
   options_.predictors = {"direct"};
-  options_.placement.count = 10;
+  options_.placements = 10;
   for (const WarningReport& report : reportWarnings(recordings_, options_, [](size_t) {})) {
     const AlarmStatistics& reflex = report.statistics[0][report.chosen][0];
     EXPECT_EQ(reflex.contacts, 5U) << report.recording;

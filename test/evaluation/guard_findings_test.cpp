@@ -64,7 +64,7 @@ TEST(GuardFindingsTest, GiveTheLevelsOfAMonitorThatSeesEverySweepForEveryThresho
     limits.thresholds = sweep_guard_core::WarningThresholds::ofMinProbability(options.min_probabilities[threshold]);
     for (size_t object = 0; object < objects.size(); ++object) {
       const LevelTrace levels = levelsOf(findings, object, limits);
-      expectEqual(levels, expected[threshold][object].levels);
+      expectEqual(levels, expected[threshold][object]);
       alarms += levels.alarms(WarningLevel::kConsidered).size();
     }
   }

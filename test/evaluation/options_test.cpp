@@ -70,7 +70,7 @@ TEST(OptionsTest, RunTheGuardAsTheNodeDoes) {
   EXPECT_EQ(options.simulation.limits.hold_time, milliseconds(500));
   EXPECT_EQ(options.simulation.tool.radius(), 0.005);
   EXPECT_EQ(options.simulation.tool.length(), 0.1);
-  EXPECT_EQ(options.placement.count, 80U);
+  EXPECT_EQ(options.placements, 80U);
 }
 
 TEST(OptionsTest, ComputeWhatIsToBeWrittenOrEverything) {

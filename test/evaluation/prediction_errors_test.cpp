@@ -19,7 +19,7 @@ std::vector<ErrorSummary> errorsOf(const std::string& predictor, const std::vect
   sweep_guard_core::PredictorOptions options;
   options.predictor = predictor;
   const std::vector<size_t> samples = samplesOf(poses, motion, seconds(1), seconds(1));
-  return summaries({predictionErrors({poses, motion, samples, kHorizons, options}, [](size_t) {})})[0];
+  return summaries({predictionErrors({poses, motion, samples}, kHorizons, options, [](size_t) {})})[0];
 }
 
 TEST(PredictionErrorsTest, AreZeroForConstantVelocityOnSuchAMotion) {
@@ -42,7 +42,7 @@ TEST(PredictionErrorsTest, ReportTheirProgress) {
   const std::vector<StampedPose> poses = straightMotion(0.3, milliseconds(10), seconds(4));
   const RecordedMotion motion(poses);
   size_t done = 0;
-  predictionErrors({poses, motion, {}, kHorizons, {}}, [&](size_t count) { done += count; });
+  predictionErrors({poses, motion, {}}, kHorizons, {}, [&](size_t count) { done += count; });
   EXPECT_EQ(done, poses.size());
 }
 

@@ -57,9 +57,7 @@ class SingleThreshold {
 class Session {
  public:
   explicit Session(const std::vector<StampedPose>& poses) {
-    ObstaclePlacementOptions placement;
-    placement.count = kObstacles;
-    for (const ObstaclePlacement& each : placeObstacles(RecordedMotion(poses), kTool, placement)) {
+    for (const ObstaclePlacement& each : placeObstacles(RecordedMotion(poses), kTool, kObstacles, 1)) {
       const Instant at = instantOf(poses.front().stamp);
       const std::string id = std::to_string(workpieces_.size());
       workpieces_.push_back(

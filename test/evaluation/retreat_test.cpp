@@ -19,8 +19,8 @@ class HeldAbove {
       : scene(inPieces(sweep_guard_core::ConvexShape::cylinder(0.005, 0.1), pieces), square),
         loop(scene, {}, {Time(seconds(10)), {}, SimulatedRobot(above(0.0073), {})}, 0.002) {
     DelayedGuardOptions guard;
-    guard.motion.dead_time = RobotDelays{}.dead_time;
-    guard.motion.time_constant = RobotDelays{}.lag;
+    guard.motion.dead_time = RobotOptions{}.dead_time;
+    guard.motion.time_constant = RobotOptions{}.lag;
     loop.addGuard(guard);
     for (int i = 0; i < 50; ++i) last = loop.run({{0.0, 0.0, -0.1}, Vector3d::Zero()});
   }
@@ -72,8 +72,8 @@ TEST_F(RetreatTest, OpensEveryGapOnlyIfNoPointCloses) {
 
 TEST_F(RetreatTest, KeepsItsSpeedInEveryDirectionAndAsItCame) {
   Random random(1);
-  const HeldTool held{held_.loop, std::vector<Twist>(50, Twist{{0.0, 0.0, -0.05}, {0.0, 0.01, 0.0}})};
-  const std::vector<Retreat> retreats = retreatFrom(held, {}, 20, random);
+  const std::vector<Twist> came_W(50, Twist{{0.0, 0.0, -0.05}, {0.0, 0.01, 0.0}});
+  const std::vector<Retreat> retreats = retreatFrom(held_.loop, came_W, {}, 20, random);
   ASSERT_EQ(retreats.size(), 42U);
   for (const Retreat& retreat : retreats) {
     EXPECT_GE(retreat.speed_kept, 0.99) << static_cast<int>(retreat.kind);

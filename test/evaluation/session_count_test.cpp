@@ -64,7 +64,7 @@ class SessionCountTest : public testing::Test {
     }
     const TriangleMesh mesh_W = meshOf(obstacle);
     ObstacleMesh object(tool_, mesh_W);
-    return countSession({motion, tool_, object, touchesOf(motion, tool_, object), trace, NearMisses::kCount});
+    return countSession({motion, tool_, object, touchesOf(motion, tool_, object), trace});
   }
 
   std::vector<StampedPose> poses_ = straightMotion(0.1, milliseconds(20), seconds(12));

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "evaluation/alarm_statistics.h"
 #include "evaluation/first_contact.h"
 #include "evaluation/motions.h"
 
@@ -9,6 +10,7 @@ namespace sweep_guard_evaluation {
 namespace {
 
 using sweep_guard_core::WarningLevel;
+using sweep_guard_recording::LevelTrace;
 using sweep_guard_recording::TimeInterval;
 
 class SimulateGuardTest : public testing::Test {
@@ -28,7 +30,7 @@ class SimulateGuardTest : public testing::Test {
     return {obstacle, *contact - seconds(4), *contact, contact};
   }
 
-  std::vector<Episode> simulateAt(double min_probability, const std::vector<ObstaclePlacement>& placements) {
+  std::vector<LevelTrace> simulateAt(double min_probability, const std::vector<ObstaclePlacement>& placements) {
     options_.min_probabilities = {min_probability};
     options_.guard.predictor.predictor = "constant_velocity";
     return simulateGuard(poses_, placements, options_, [](size_t) {}).front();
@@ -40,20 +42,22 @@ class SimulateGuardTest : public testing::Test {
 
 // A motion that is predicted without error warns as early as the intervals reach, and not for a wall beside.
 TEST_F(SimulateGuardTest, AConstantVelocityIsWarnedOfInTimeAndAWallBesideIsNot) {
-  const auto episodes = simulateAt(1.0, {place(wallAt(0.5)), place(wallAt(0.7)), place(wallAt(0.6, 0.2))});
+  const std::vector<ObstaclePlacement> placements = {place(wallAt(0.5)), place(wallAt(0.7)), place(wallAt(0.6, 0.2))};
+  const auto levels = simulateAt(1.0, placements);
   for (size_t i = 0; i < 2; ++i) {
-    EXPECT_NEAR(sweep_guard_core::toSeconds(leadOf(episodes[i], alarmRules()[0]).value()), 0.1, 0.05);
-    EXPECT_NEAR(sweep_guard_core::toSeconds(leadOf(episodes[i], alarmRules()[1]).value()), 1.0, 0.15);
-    EXPECT_GE(leadOf(episodes[i], alarmRules()[0]), milliseconds(100));
-    EXPECT_GE(leadOf(episodes[i], alarmRules()[1]), seconds(1));
+    const Time contact = placements[i].contact.value();
+    EXPECT_NEAR(sweep_guard_core::toSeconds(leadOf(contact, levels[i], alarmRules()[0]).value()), 0.1, 0.05);
+    EXPECT_NEAR(sweep_guard_core::toSeconds(leadOf(contact, levels[i], alarmRules()[1]).value()), 1.0, 0.15);
+    EXPECT_GE(leadOf(contact, levels[i], alarmRules()[0]), milliseconds(100));
+    EXPECT_GE(leadOf(contact, levels[i], alarmRules()[1]), seconds(1));
   }
-  EXPECT_TRUE(episodes[2].levels.alarms(WarningLevel::kConsidered).empty());
-  EXPECT_EQ(episodes[2].placement.contact, std::nullopt);
+  EXPECT_TRUE(levels[2].alarms(WarningLevel::kConsidered).empty());
+  EXPECT_EQ(placements[2].contact, std::nullopt);
 }
 
 TEST_F(SimulateGuardTest, EndsWithTheContactThatTheGuardFinds) {
-  const auto episodes = simulateAt(0.1, {place(wallAt(0.5))});
-  const auto contact = episodes[0].levels.alarms(WarningLevel::kContact);
+  const auto levels = simulateAt(0.1, {place(wallAt(0.5))});
+  const auto contact = levels[0].alarms(WarningLevel::kContact);
   ASSERT_EQ(contact.size(), 1U);
   EXPECT_NEAR(sweep_guard_core::toSeconds(contact[0].begin.time_since_epoch()), 5.0, 0.021);
 }
@@ -65,10 +69,10 @@ TEST_F(SimulateGuardTest, ComputesAWarningForEveryThreshold) {
   options_.min_probabilities = {0.01, 1.0};
   options_.guard.predictor.predictor = "constant_velocity";
   const auto by_threshold = simulateGuard(poses_, {place(wallAt(0.6, 0.2))}, options_, [](size_t) {});
-  EXPECT_GT(by_threshold[0][0].levels.alarms(WarningLevel::kConsidered).size(), 0U);
-  const auto seconds_of = [](const Episode& episode) {
+  EXPECT_GT(by_threshold[0][0].alarms(WarningLevel::kConsidered).size(), 0U);
+  const auto seconds_of = [](const LevelTrace& levels) {
     sweep_guard_core::Duration sum{0};
-    for (const TimeInterval& alarm : episode.levels.alarms(WarningLevel::kConsidered)) sum += alarm.end - alarm.begin;
+    for (const TimeInterval& alarm : levels.alarms(WarningLevel::kConsidered)) sum += alarm.end - alarm.begin;
     return sum;
   };
   EXPECT_GT(seconds_of(by_threshold[0][0]), seconds_of(by_threshold[1][0]));
@@ -80,8 +84,8 @@ TEST_F(SimulateGuardTest, OnePlacementDoesNotDisturbAnother) {
   const ObstaclePlacement second = place(wallAt(0.52, 0.05));
   const auto together = simulateAt(0.1, {first, second});
   const auto alone = simulateAt(0.1, {second});
-  const auto a = together[1].levels.alarms(WarningLevel::kConsidered);
-  const auto b = alone[0].levels.alarms(WarningLevel::kConsidered);
+  const auto a = together[1].alarms(WarningLevel::kConsidered);
+  const auto b = alone[0].alarms(WarningLevel::kConsidered);
   ASSERT_EQ(a.size(), b.size());
   for (size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(a[i].begin, b[i].begin);

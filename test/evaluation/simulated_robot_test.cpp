@@ -12,12 +12,19 @@ using sweep_guard_core::Twist;
 
 Twist along(double x) { return {{x, 0.0, 0.0}, Vector3d::Zero()}; }
 
+RobotOptions delayedBy(milliseconds dead_time, milliseconds lag) {
+  RobotOptions options;
+  options.dead_time = dead_time;
+  options.lag = lag;
+  return options;
+}
+
 void runFor(SimulatedRobot& robot, int ms) {
   for (int i = 0; i < ms; ++i) robot.step();
 }
 
 TEST(SimulatedRobotTest, RestsForTheDeadTime) {
-  SimulatedRobot robot(Isometry3d::Identity(), {milliseconds(20), milliseconds(0)});
+  SimulatedRobot robot(Isometry3d::Identity(), delayedBy(milliseconds(20), milliseconds(0)));
   robot.send(along(1.0));
   runFor(robot, 20);
   EXPECT_EQ(robot.pose().translation().x(), 0.0);
@@ -26,7 +33,7 @@ TEST(SimulatedRobotTest, RestsForTheDeadTime) {
 }
 
 TEST(SimulatedRobotTest, HasMadeUpForAllButOneEthAfterItsLag) {
-  SimulatedRobot robot(Isometry3d::Identity(), {milliseconds(0), milliseconds(30)});
+  SimulatedRobot robot(Isometry3d::Identity(), delayedBy(milliseconds(0), milliseconds(30)));
   robot.send(along(1.0));
   runFor(robot, 30);
   EXPECT_NEAR(robot.velocity_W().v_W.x(), 1.0 - std::exp(-1.0), 1e-12);
@@ -35,7 +42,7 @@ TEST(SimulatedRobotTest, HasMadeUpForAllButOneEthAfterItsLag) {
 TEST(SimulatedRobotTest, TurnsAboutTheOriginOfTheTool) {
   Isometry3d X_WT = Isometry3d::Identity();
   X_WT.translation() = Vector3d(1.0, 2.0, 3.0);
-  SimulatedRobot robot(X_WT, {milliseconds(0), milliseconds(0)});
+  SimulatedRobot robot(X_WT, delayedBy(milliseconds(0), milliseconds(0)));
   robot.send({Vector3d::Zero(), {0.0, 0.0, 2.0}});
   runFor(robot, 100);
   EXPECT_EQ(robot.pose().translation(), X_WT.translation());

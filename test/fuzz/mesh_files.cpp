@@ -4,15 +4,19 @@
 #include <cstring>
 #include <sstream>
 #include <stdexcept>
+#include <vector>
 
 #include "input.h"
 #include "require.h"
 #include "ros/tool/mesh_answer.h"
 #include "ros/tool/mesh_text.h"
 #include "ros/tool/mesh_wire.h"
+#include "ros/tool/stl_facets.h"
 
 namespace sweep_guard_fuzz {
 namespace {
+
+using sweep_guard_ros::StlFacet;
 
 // Counts as a reader does that knows nothing but lines and words.
 size_t linesThatBeginWith(const std::string& keyword, std::string text) {
@@ -43,15 +47,8 @@ void checkText(std::string text, const std::string& format) {
   if (readable && format == "obj") {
     require(linesThatBeginWith("mtllib", text) + linesThatBeginWith("usemtl", text) == 0, "no material is left");
   }
-  try {
-    const size_t faces = sweep_guard_ros::expectedFaces(text, format);
-    if (format == "obj") require(faces == linesThatBeginWith("f", text), "each face of an OBJ counts");
-    if (format == "stl" && faces > 0)
-      require(faces == linesThatBeginWith("facet", text), "each facet of an STL counts");
-  } catch (const std::runtime_error&) {
-    require(format == "stl" && linesThatBeginWith("solid", text) != linesThatBeginWith("endsolid", text),
-            "only an STL lacks its end");
-  }
+  const size_t faces = sweep_guard_ros::expectedFaces(text, format);
+  if (format == "obj") require(faces == linesThatBeginWith("f", text), "each face of an OBJ counts");
 }
 
 template <typename Value>
@@ -70,6 +67,31 @@ std::string written(const sweep_guard_ros::MeshSurface& surface) {
     for (const std::uint32_t corner : triangle) append(bytes, corner);
   }
   return bytes;
+}
+
+std::string binaryStl(const std::vector<StlFacet>& facets) {
+  std::string bytes(80, ' ');
+  append(bytes, static_cast<std::uint32_t>(facets.size()));
+  for (const StlFacet& facet : facets) {
+    bytes.append(12, '\0');
+    append(bytes, facet);
+    bytes.append(2, '\0');
+  }
+  return bytes;
+}
+
+void checkStl(const std::string& bytes) {
+  std::vector<StlFacet> facets;
+  try {
+    facets = sweep_guard_ros::readStlFacets(bytes);
+  } catch (const std::runtime_error& error) {
+    require(std::strlen(error.what()) < 200, "a refusal is short");
+    return;
+  }
+  const std::vector<StlFacet> again = sweep_guard_ros::readStlFacets(binaryStl(facets));
+  require(again.size() == facets.size(), "no triangle is lost or made up");
+  require(facets.empty() || std::memcmp(again.data(), facets.data(), facets.size() * sizeof(StlFacet)) == 0,
+          "corners stay as they are");
 }
 
 void checkAnswer(const std::string& answer) {
@@ -92,7 +114,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, size_t size) {
   const int what = input.byte();
   const std::string rest = input.rest();
   if (what == 'o') sweep_guard_fuzz::checkText(rest, "obj");
-  if (what == 's') sweep_guard_fuzz::checkText(rest, "stl");
+  if (what == 's') sweep_guard_fuzz::checkStl(rest);
   if (what == 'd') sweep_guard_fuzz::checkText(rest, "dae");
   if (what == 'a') sweep_guard_fuzz::checkAnswer(rest);
   return 0;

@@ -45,7 +45,7 @@ class World {
         live_(guardParameters()),
         poses_(node_, live_, {frames_, store_, monitor_, queue_, frame_motions_}),
         other_tools_(node_, guardParameters(), {[](const auto& job) { job.run(); }, store_, frame_motions_, monitor_}),
-        guard_(node_, motionParameters().guardSource()),
+        guard_(node_, motionParameters().guard, motionParameters().tool),
         motion_guard_(motionParameters().options) {}
 
   // The first byte chooses the topic, two more are the length.
@@ -168,7 +168,7 @@ class World {
   }
 
   void command(const geometry_msgs::Twist& msg) {
-    sweep_guard_core::MotionInputs inputs = guard_.newest().inputs;
+    sweep_guard_core::MotionInputs inputs = guard_.inputs();
     const sweep_guard_core::Instant now = sweep_guard_ros::now();
     inputs.pose = {Eigen::Isometry3d::Identity(), {now.stamp, now.steady}};
     sweep_guard_core::MotionCommand command;

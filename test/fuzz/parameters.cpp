@@ -226,7 +226,7 @@ sweep_guard_core::ForceInputs pressedBall(const sweep_guard_core::Instant& at) {
   inputs.known.planes = planes;
   inputs.known.pose = sweep_guard_core::MotionInputs::ToolPose{Eigen::Isometry3d::Identity(), {at.stamp, at.steady}};
   inputs.known.warning =
-      sweep_guard_core::PermissionInputs::GuardWarning{sweep_guard_core::WarningLevel::kContact, 0, at.steady};
+      sweep_guard_core::MotionInputs::GuardWarning{sweep_guard_core::WarningLevel::kContact, 0, at.steady};
   return inputs;
 }
 

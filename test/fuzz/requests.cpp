@@ -74,16 +74,17 @@ class World {
         }),
         frames_(node_, 1 << 16, [](const auto&, const auto&) {}),
         guard_(*live_.initial().tool, sweep_guard_core::makeDetector("halfspace"), live_.initial().guard),
-        path_tests_({live_, frames_, store_, monitor_, /*frame_motions=*/nullptr, makeDetector}),
-        robot_tests_({robot_live_, frames_, store_, monitor_, /*frame_motions=*/nullptr, makeDetector}),
-        check_sweep_(node_, service_threads_, path_tests_),
-        check_trajectory_(robot_node_, service_threads_, robot_tests_),
+        path_tests_({live_, frames_, store_, monitor_}, /*frame_motions=*/nullptr, makeDetector),
+        robot_tests_({robot_live_, frames_, store_, monitor_}, /*frame_motions=*/nullptr, makeDetector),
+        check_sweep_(node_, "check_sweep", service_threads_, path_tests_, sweep_guard_ros::checkSweep),
+        check_trajectory_(robot_node_, "check_trajectory", service_threads_, robot_tests_,
+                          sweep_guard_ros::checkTrajectory),
         predict_(node_, service_threads_, live_, store_,
                  [this](sweep_guard_core::Duration end) { return motion(end); }),
-        intend_(node_, service_threads_, {live_, frames_, store_, intentions_}),
-        attach_(node_, service_threads_, {live_, frames_, store_, monitor_},
-                {[this] { return newestPose(); },
-                 [this](const auto& /*before*/, const auto& next, const auto& /*also*/) { exchange(*next); }}),
+        intend_(node_, service_threads_, {live_, frames_, store_, monitor_}, intentions_),
+        attach_(
+            node_, service_threads_, {live_, frames_, store_, monitor_}, [this] { return newestPose(); },
+            [this](const auto& /*before*/, const auto& next, const auto& /*also*/) { exchange(*next); }),
         controls_(node_, live_, monitor_, store_, service_threads_,
                   {[] {}, [this](const std::string& id) { return acknowledge(id); }, [] {}}) {
     const sweep_guard_core::TriangleMesh mesh({{-kHalfWidth, -kHalfWidth, 0},
@@ -98,6 +99,7 @@ class World {
       sweep_guard_core::PoseWithFrames pose;
       pose.stamp = now.stamp + milliseconds(10 * (i - 3));
       pose.X_WT.translation() = Eigen::Vector3d(0.0, 0.0, -0.2 + 0.01 * i);
+      pose.bodies = {{pose.X_WT}};
       pose.X_WM["world"] = Eigen::Isometry3d::Identity();
       guard_.sweep(pose, store_.snapshot(), report);
     }
@@ -372,8 +374,8 @@ class World {
   sweep_guard_core::Guard guard_;
   sweep_guard_ros::PathTests path_tests_;
   sweep_guard_ros::PathTests robot_tests_;
-  sweep_guard_ros::CheckSweepService check_sweep_;
-  sweep_guard_ros::CheckTrajectoryService check_trajectory_;
+  sweep_guard_ros::PathService check_sweep_;
+  sweep_guard_ros::PathService check_trajectory_;
   sweep_guard_ros::PredictService predict_;
   sweep_guard_ros::IntendService intend_;
   bool exchanged_ = false;  // the tool, by the last call

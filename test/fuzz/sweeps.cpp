@@ -138,6 +138,7 @@ class Scene {
     pose_.received = SteadyTime(now_);
     if (how % 4 != 1) pose_.X_WT.pretranslate(placeFrom(input_, 0.1));
     if (how % 4 > 1) pose_.X_WT = pose_.X_WT * rotationFrom(input_);
+    pose_.bodies = {{pose_.X_WT}};
     if (how == 7) pose_.X_WM[kFrame] = frame_ = poseFrom(input_, 0.05);
     if (how == 6) {
       pose_.X_WM.erase(kFrame);

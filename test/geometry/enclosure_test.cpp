@@ -194,7 +194,7 @@ TEST(EnclosureTest, CountsTheEdgesAtBorders) {
   beside.add(plate(1.0).movedBy(0.0, 0.0, 2.0));
   EXPECT_EQ(beside.mesh().openEdges(), 4U);
   EXPECT_EQ(closedCount(beside), 12U);
-  EXPECT_EQ(plate(1.0).mesh(SurfaceKind::kSheet).openEdges(), 0U);
+  EXPECT_EQ(plate(1.0).mesh(/*is_sheet=*/true).openEdges(), 0U);
 }
 
 TEST(EnclosureTest, HoldsNoMoreThanSixteenBytesATriangle) {

@@ -20,7 +20,7 @@ Path pathAlong(const std::vector<double>& x) {
 }
 
 size_t lastOf(const Path& path, size_t first, double max_deviation) {
-  return endOfMergedMotion(path, first, path.size() - 1, /*tool_radius=*/0.1, {max_deviation, /*max_rotation=*/0.175});
+  return endOfMergedMotion(path, first, path.size() - 1, /*tool_radius=*/0.1, max_deviation, /*max_rotation=*/0.175);
 }
 
 TEST(MergedMotionTest, OfASteadyMotionHasNoDeviation) {

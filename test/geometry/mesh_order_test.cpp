@@ -81,7 +81,7 @@ TEST_P(MeshOrderTest, IndicesStayTheSenders) {
 TEST_P(MeshOrderTest, ClustersNameTheCornersOfTheirTriangles) {
   const auto& at = mesh_.order().triangle_at;
   for (const Cluster& cluster : mesh_.order().clusters) {
-    const auto& places = mesh_.order().corners[cluster.number].places;
+    const auto& places = mesh_.order().corners[cluster.number];
     for (std::uint32_t i = 0; i < cluster.count; ++i) {
       const std::uint32_t place = cluster.first + i;
       const Triangle& corners = mesh_.triangles()[at.empty() ? place : at[place]];

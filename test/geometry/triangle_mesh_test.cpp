@@ -115,7 +115,7 @@ TEST(TriangleMeshTest, IsAfterADeformationAsFarOffAsItsSenderMayHaveRounded) {
 }
 
 TEST(TriangleMeshTest, AddsWhatThePositionsWereRoundedByBefore) {
-  const TriangleMesh mesh(kVertices, kTriangles, SurfaceKind::kMayEnclose, 0.002);
+  const TriangleMesh mesh(kVertices, kTriangles, /*is_sheet=*/false, 0.002);
   EXPECT_EQ(mesh.rounding(), 0.002);
 }
 

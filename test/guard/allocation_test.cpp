@@ -98,6 +98,7 @@ class SteadyStateTest : public testing::TestWithParam<Configuration> {
     pose_.received = now(ms).steady;
     pose_.X_WT.linear() = Eigen::AngleAxisd(M_PI + 0.2 * std::sin(2 * t), Eigen::Vector3d::UnitX()).toRotationMatrix();
     pose_.X_WT.translation() = Eigen::Vector3d(0.02 * std::cos(t), 0.02 * std::sin(t), height);
+    pose_.bodies[0].X_WB = pose_.X_WT;
     return pose_;
   }
 

@@ -67,6 +67,7 @@ class BodiesTest : public testing::Test {
     bodyPoses(robot_->tree, robot_->bodies, state_, X_WB);
     ms_ += 10;
     PoseWithFrames pose{at(ms_), {}, state_.X_WR, {{"table", Eigen::Isometry3d::Identity()}}};
+    pose.bodies.clear();
     for (size_t i = 0; i < X_WB.size(); ++i) pose.bodies.push_back({X_WB[i], motion.deviationBound(i, 1)});
     pose.state = state_;
     return pose;
@@ -254,8 +255,8 @@ class TwoBallsTest : public testing::Test {
  protected:
   PoseWithFrames pose(int ms, double z_first, double z_second) const {
     PoseWithFrames pose{at(ms), {}, Eigen::Isometry3d::Identity(), {{"table", Eigen::Isometry3d::Identity()}}};
-    pose.bodies.push_back({Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, z_first))});
-    pose.bodies.push_back({Eigen::Isometry3d(Eigen::Translation3d(0.5, 0.0, z_second))});
+    pose.bodies = {{Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, z_first))},
+                   {Eigen::Isometry3d(Eigen::Translation3d(0.5, 0.0, z_second))}};
     pose.state.positions = {z_first, z_second};
     return pose;
   }
@@ -370,6 +371,7 @@ TEST(ArmBesideASheetTest, AContactOfTheElbowIsPredictedAhead) {
       pose.state.positions = {0.0005 * ms, 2.6};
       std::vector<Eigen::Isometry3d> X_WB;
       bodyPoses(robot->tree, robot->bodies, pose.state, X_WB);
+      pose.bodies.clear();
       for (const Eigen::Isometry3d& X : X_WB) pose.bodies.push_back({X});
       EXPECT_FALSE(reportOf(guard, pose, workpieces).contact());
     }

@@ -34,6 +34,7 @@ class CrossCheckTest : public testing::Test {
     for (int step = 0; step < 5; ++step) {
       pose.stamp = Time(std::chrono::milliseconds(10 * step));
       pose.X_WT.translation() = kPlace + Eigen::Vector3d(0.0, 0.0, 0.2 - 0.02 * step);
+      pose.bodies = {{pose.X_WT}};
       guard.sweep(pose, workpieces_, report);
       guard.predict({}, workpieces_, prediction);
       keepAll();

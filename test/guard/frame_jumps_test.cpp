@@ -101,6 +101,7 @@ TEST_F(FrameJumpsTest, PredictionIsRightAgainTwoPosesAfterAJump) {
   for (int part = 1; part <= 100; ++part) {
     PoseWithFrames pose = poseAt(1.792 + 8e-5 * part, 0.099 + 1e-5 * part, 0.0);
     pose.X_WT.linear() = Eigen::AngleAxisd(0.026 * part, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    pose.bodies = {{pose.X_WT}};
     pose.jump = "joint 'wrist' jumped: 130 rad/s";
     if (part < 100) {
       guard_.pass(pose);
@@ -110,6 +111,7 @@ TEST_F(FrameJumpsTest, PredictionIsRightAgainTwoPosesAfterAJump) {
   }
   PoseWithFrames next = poseAt(1.808, 0.101, 0.0);
   next.X_WT.linear() = Eigen::AngleAxisd(2.6, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  next.bodies = {{next.X_WT}};
   EXPECT_EQ(reportOf(guard_, next, workpieces_).jump, "");
   const PredictedPath path = guard_.predictMotion({}, fromSeconds(0.1)).path;
   ASSERT_FALSE(path.empty());

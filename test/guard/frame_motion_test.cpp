@@ -83,7 +83,7 @@ TEST(FrameMotionTest, NoPointIsFartherFromThePathThanItsBound) {
     const Eigen::Vector3d p_M = radius * random.direction();
     Duration from{};
     for (size_t i = 0; i < times.size(); ++i) {
-      const Motion straight{path->points[i].X_WM, path->points[i + 1].X_WM};
+      const Motion straight{(*path)[i].X_WT, (*path)[i + 1].X_WT};
       double farthest = 0.0;
       for (int k = 0; k <= 50; ++k) {
         const Duration time = from + (times[i].ahead - from) * k / 50;
@@ -91,7 +91,7 @@ TEST(FrameMotionTest, NoPointIsFartherFromThePathThanItsBound) {
         const double off = deviationAt(motion, Time(7ms) + time);
         farthest = std::max(farthest, off + (motion.at(Time(7ms) + time)->X_WT * p_M - meant_W).norm());
       }
-      const double bound = path->points[i + 1].deviation_bound;
+      const double bound = (*path)[i + 1].deviation_bound;
       EXPECT_LE(farthest, bound + 1e-9);
       if (bound > 0.0) tightest = std::min(tightest, 1.0 - farthest / bound);
       from = times[i].ahead;
@@ -107,8 +107,8 @@ TEST(FrameMotionTest, APredictionThatBeginsBetweenTwoPosesDoublesTheirBound) {
   motion.predicted_from = Time(5ms);
   motion.predicted = {predictedAlong(0ms, 0.5, 0.0), predictedAlong(100ms, 5.0, 1.0)};
   const auto path = framePath(motion, Time(0ms), {{3ms}, {20ms}}, 0.5);
-  EXPECT_NEAR(path->points[1].deviation_bound, 0.2, 1e-12);
-  EXPECT_GE(path->points[2].deviation_bound, 0.2);
+  EXPECT_NEAR((*path)[1].deviation_bound, 0.2, 1e-12);
+  EXPECT_GE((*path)[2].deviation_bound, 0.2);
 }
 
 TEST(SparseMotionTest, NoPointIsFartherFromTheFewerPosesThanTheirBound) {
@@ -184,8 +184,8 @@ TEST(FrameThatGoesOnTest, HasAPathOfAnyLength) {
   const auto path =
       framePath(seldomMeasured(), Time(150ms), {predictedAlong(10ms, 0.0, 0.0), predictedAlong(1s, 0.0, 0.0)}, 1.0);
   ASSERT_TRUE(path);
-  EXPECT_NEAR(path->points.back().X_WM.translation().x(), 0.3 * 1.15, 1e-9);
-  EXPECT_NEAR(path->points.back().deviation_bound, 0.0, 1e-9);
+  EXPECT_NEAR(path->back().X_WT.translation().x(), 0.3 * 1.15, 1e-9);
+  EXPECT_NEAR(path->back().deviation_bound, 0.0, 1e-9);
 }
 
 TEST(FrameThatGoesOnTest, RestsTwoSecondsAfterItWasHeardLast) {

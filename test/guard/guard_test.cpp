@@ -517,7 +517,7 @@ TEST_F(GuardTest, SweepsOnWhenAFrameIsKnownFurther) {
        std::vector<std::tuple<double, double, bool>>{{1.01, -0.4, false}, {1.04, 0.1, true}, {1.06, 0.2, false}}) {
     plate.measured.push_back(plate_at(seconds, z));
     follow();
-    guard_.sweepOn(table_, report);
+    guard_.sweep(pose(1.07, {}), table_, report, /*arrived=*/false);
     ASSERT_EQ(report.objects.size(), 1U);
     EXPECT_EQ(report.contact(), contact) << "up to " << seconds << " s";
     EXPECT_EQ(report.end, atSecond(1.07));

@@ -11,7 +11,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-std::vector<int> stampsOf(const std::vector<JoinedMotion::Sample>& samples) {
+std::vector<int> stampsOf(const std::vector<PoseSample>& samples) {
   std::vector<int> stamps;
   for (const auto& sample : samples)
     stamps.push_back(static_cast<int>(std::chrono::duration_cast<milliseconds>(sample.stamp - at(0)).count()));
@@ -20,8 +20,8 @@ std::vector<int> stampsOf(const std::vector<JoinedMotion::Sample>& samples) {
 
 class JoinedMotionTest : public testing::Test {
  protected:
-  std::vector<JoinedMotion::Sample> join() {
-    std::vector<JoinedMotion::Sample> samples;
+  std::vector<PoseSample> join() {
+    std::vector<PoseSample> samples;
     motion_.join(frame_, samples);
     return samples;
   }
@@ -37,7 +37,7 @@ TEST_F(JoinedMotionTest, HasASampleAtEachStampUpToTheOlderOfBothNewest) {
   EXPECT_EQ(stampsOf(samples), (std::vector<int>{4, 10, 14, 20, 24}));
   for (const auto& sample : samples) {
     const double ms = 1e3 * toSeconds(sample.stamp - at(0));
-    EXPECT_NEAR(sample.X_WB.translation().x(), 0.001 * ms, 1e-12);
+    EXPECT_NEAR(sample.X_WT.translation().x(), 0.001 * ms, 1e-12);
     EXPECT_NEAR(sample.X_WM.translation().x(), 0.1 * ms, 1e-12);
   }
   EXPECT_NEAR(samples[1].deviation_bound, 1.0 + 0.002, 1e-12) << "of both in which it lies";
@@ -66,8 +66,8 @@ TEST_F(JoinedMotionTest, KeepsPosesOfEqualStamps) {
   for (const double x : {0.0, 1.0, 2.0}) motion_.add(at(x == 0.0 ? 0 : 10), {along(x)});
   const auto samples = join();
   EXPECT_EQ(stampsOf(samples), (std::vector<int>{0, 10, 10}));
-  EXPECT_EQ(samples[1].X_WB.translation().x(), 1.0);
-  EXPECT_EQ(samples[2].X_WB.translation().x(), 2.0);
+  EXPECT_EQ(samples[1].X_WT.translation().x(), 1.0);
+  EXPECT_EQ(samples[2].X_WT.translation().x(), 2.0);
 }
 
 TEST_F(JoinedMotionTest, ABodyThatIsPlacedAnewHasNoMotionThere) {
@@ -80,7 +80,7 @@ TEST_F(JoinedMotionTest, ABodyThatIsPlacedAnewHasNoMotionThere) {
   const auto samples = join();
   EXPECT_EQ(stampsOf(samples), (std::vector<int>{0, 10, 10, 10, 20}));
   for (size_t i = 0; i < samples.size(); ++i) EXPECT_EQ(samples[i].anew, i == 2) << i;
-  EXPECT_EQ(samples[2].X_WB.translation().x(), 100.0);
+  EXPECT_EQ(samples[2].X_WT.translation().x(), 100.0);
 }
 
 TEST_F(JoinedMotionTest, AFrameThatIsPlacedAnewIsInTheOldPlaceUpToThenAndThenInTheNewOne) {
@@ -104,7 +104,7 @@ TEST_F(JoinedMotionTest, RepeatsAWayWhereTheFrameWasPlacedAnewAtItsNewestStamp) 
   frame_.measured.push_back({at(10), along(9.0), 0.0, /*anew=*/true});
   std::vector<double> repeated;
   for (const auto& sample : join()) {
-    if (sample.X_WM.translation().x() == 9.0) repeated.push_back(sample.X_WB.translation().x());
+    if (sample.X_WM.translation().x() == 9.0) repeated.push_back(sample.X_WT.translation().x());
   }
   EXPECT_EQ(repeated, (std::vector<double>{0.0, 0.5, 1.0}));
   EXPECT_TRUE(join().empty());
@@ -117,7 +117,7 @@ TEST_F(JoinedMotionTest, WhatIsPlacedAnewLaterIsInItsOldPlaceUntilThen) {
   motion_.add(at(30), {along(101.0)});
   const auto samples = join();
   EXPECT_EQ(stampsOf(samples), (std::vector<int>{0, 10, 20, 25, 30}));
-  for (const size_t i : {1U, 2U}) EXPECT_EQ(samples[i].X_WB.translation().x(), 1.0);
+  for (const size_t i : {1U, 2U}) EXPECT_EQ(samples[i].X_WT.translation().x(), 1.0);
   EXPECT_TRUE(samples[3].anew);
 }
 
@@ -143,9 +143,9 @@ TEST_F(JoinedMotionTest, DependsOnNoOrderOfArrival) {
     JoinedMotion in_turn;
     FrameMotion all;
     FrameMotion known;
-    std::vector<JoinedMotion::Sample> expected;
-    std::vector<JoinedMotion::Sample> samples;
-    std::vector<JoinedMotion::Sample> more;
+    std::vector<PoseSample> expected;
+    std::vector<PoseSample> samples;
+    std::vector<PoseSample> more;
     int body_ms = 0;
     int frame_ms = 0;
     for (int i = 0; i < 40; ++i) {
@@ -167,7 +167,7 @@ TEST_F(JoinedMotionTest, DependsOnNoOrderOfArrival) {
     at_once.join(all, expected);
     ASSERT_EQ(stampsOf(samples), stampsOf(expected));
     for (size_t i = 0; i < samples.size(); ++i) {
-      EXPECT_TRUE(samples[i].X_WB.isApprox(expected[i].X_WB, 1e-12));
+      EXPECT_TRUE(samples[i].X_WT.isApprox(expected[i].X_WT, 1e-12));
       EXPECT_TRUE(samples[i].X_WM.isApprox(expected[i].X_WM, 1e-12));
     }
   }

@@ -44,6 +44,7 @@ PoseWithFrames poseAt(const Robot& robot, double seconds, const RobotState& stat
   PoseWithFrames pose{atSecond(1000.0 + seconds), {}, state.X_WR};
   std::vector<Eigen::Isometry3d> X_WB;
   bodyPoses(robot.tree, robot.bodies, state, X_WB);
+  pose.bodies.clear();
   for (const Eigen::Isometry3d& X : X_WB) pose.bodies.push_back({X});
   pose.state = state;
   return pose;
@@ -80,8 +81,8 @@ PredictorOptions optionsOf(const std::string& name) {
   return options;
 }
 
-std::vector<PredictableJoint> jointsOf(const KinematicTree& tree) {
-  std::vector<PredictableJoint> joints(tree.variables().size());
+std::vector<JointVariable> jointsOf(const KinematicTree& tree) {
+  std::vector<JointVariable> joints(tree.variables().size());
   for (const TreeLink& link : tree.links()) {
     const bool mimics = link.joint != tree.variables()[link.variable].name;
     if (link.type == JointType::kPrismatic && !mimics) joints[link.variable].turns = false;

@@ -33,6 +33,7 @@ class GuardWithoutMemoryTest : public testing::TestWithParam<std::string> {
     pose_.stamp = now.stamp;
     pose_.received = now.steady;
     pose_.X_WT.translation().z() = height;
+    pose_.bodies[0].X_WB = pose_.X_WT;
     const auto checkpoint = monitor_.checkpoint();
     guard_.sweep(pose_, workpieces_, report_);
     monitor_.swept(report_, {now.stamp, now.steady}, checkpoint, now.steady);

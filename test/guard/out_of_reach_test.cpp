@@ -297,6 +297,7 @@ class ArmAmongHulls {
     bodyPoses(robot_->tree, robot_->bodies, state_, X_WB);
     PoseWithFrames pose{at(ms_), {}, state_.X_WR, {{"table", up(0.0)}, {"table of one that comes later", up(0.1)}}};
     if (random_.chance(0.9)) pose.X_WM["turning"] = X_WM_;
+    pose.bodies.clear();
     for (size_t i = 0; i < X_WB.size(); ++i) pose.bodies.push_back({X_WB[i], motion.deviationBound(i, 1)});
     pose.state = state_;
     return pose;
@@ -415,11 +416,11 @@ PredictedPath randomSteps(Random& random, const Eigen::Isometry3d& X_WT) {
   return path;
 }
 
-FramePath randomFrame(Random& random) {
-  FramePath frame;
+PredictedPath randomFrame(Random& random) {
+  PredictedPath frame;
   Eigen::Isometry3d X = random.pose(random.inBox({0.3, 0.3, 0.3}));
   for (int i = 0; i <= 2; ++i) {
-    frame.points.push_back({X, i == 0 ? Matrix6d::Zero() : randomCovariance(random), i == 0 ? 0.0 : 0.001});
+    frame.push_back({i * 50ms, X, i == 0 ? Matrix6d::Zero() : randomCovariance(random), i == 0 ? 0.0 : 0.001});
     X = Eigen::Translation3d(random.uniform(0.0, 0.05) * random.direction()) * X *
         random.turn(random.uniform(0.0, 0.3));
   }

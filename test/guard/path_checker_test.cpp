@@ -65,7 +65,7 @@ struct PathScene {
 
 PredictedObject checkedAlone(const PathScene& scene) {
   ReferenceDetector detector;
-  PathChecker checker({SweepOptions(), kStep});
+  PathChecker checker(SweepOptions(), kStep);
   PredictedObject object;
   checker.check(detector, {scene.tool, scene.X_WT, scene.path, 0, Eigen::Isometry3d::Identity(), scene.workpiece, {}},
                 object);

@@ -93,7 +93,7 @@ TEST(PathInMeshTest, ReachesAsFarWithinAStepAsAtItsEnds) {
 TEST(PathCheckerTest, WhatIsOutOfReachMakesNoDifference) {
   Random random(4);
   ReferenceDetector detector;
-  PathChecker checker({SweepOptions(), 5ms});
+  PathChecker checker(SweepOptions(), 5ms);
   int contacts = 0;
   for (int i = 0; i < 30; ++i) {
     std::vector<Eigen::Vector3d> vertices;
@@ -161,7 +161,7 @@ double distanceAt(const Eigen::Isometry3d& X_WT, const TriangleMesh& mesh_W) {
 TEST(PathCheckerTest, WhatTheVolumeAloneMeetsInTheReflexIntervalIsBesideThePath) {
   Random random(6);
   ReferenceDetector detector;
-  PathChecker checker({SweepOptions(), 5ms});
+  PathChecker checker(SweepOptions(), 5ms);
   int only_volume = 0;
   int met = 0;
   for (int i = 0; i < 300; ++i) {

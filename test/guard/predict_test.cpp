@@ -338,7 +338,7 @@ class CoarseSweepsTest : public testing::Test {
       ASSERT_EQ(ends.back(), path.size());
       for (const bool spent : {false, true}) {
         SCOPED_TRACE(std::to_string(sweeps) + (spent ? " sweeps, no time" : " sweeps"));
-        PathChecker checker({SweepOptions(), 5ms});
+        PathChecker checker(SweepOptions(), 5ms);
         PredictedObject object;
         checker.check(detector_,
                       {Tool(tool),
@@ -440,7 +440,7 @@ class ToolPiecesTest : public testing::Test {
     for (PredictedPose& pose : path) {
       pose.covariance.topLeftCorner<3, 3>().diagonal().setConstant(deviation * deviation);
     }
-    PathChecker checker({SweepOptions(), 5ms});
+    PathChecker checker(SweepOptions(), 5ms);
     PredictedObject object;
     checker.check(detector_,
                   {tool_,
@@ -549,6 +549,7 @@ class SlowGuard {
     const SteadyTime begin = clock_;
     pose_.X_WT.translation().x() += 0.0001;
     pose_.X_WT.rotate(Eigen::AngleAxisd(0.066 * turn_rate, Eigen::Vector3d::UnitX()));
+    pose_.bodies = {{pose_.X_WT}};
     pose_.stamp += 66ms;
     reportOf(*guard_, pose_, workpieces_);
     PredictionRun run = guard_->beginPrediction(5ms, workpieces_, prediction);

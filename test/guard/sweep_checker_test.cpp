@@ -307,9 +307,8 @@ TEST(InsideOfAWorkpieceTest, IsContactIfTheMeshIsClosedOrLacksLittle) {
   EXPECT_EQ(firstTimeOfImpact(within), 0.0);
   EXPECT_TRUE(testMotion(reference(), bead, Motion{}, with_a_hole, {}).inside);
   EXPECT_FALSE(testMotion(reference(), bead, Motion{}, open, {}).contact());
-  EXPECT_FALSE(
-      testMotion(reference(), bead, Motion{}, TriangleMesh(corners, closed.triangles(), SurfaceKind::kSheet), {})
-          .contact());
+  EXPECT_FALSE(testMotion(reference(), bead, Motion{}, TriangleMesh(corners, closed.triangles(), /*is_sheet=*/true), {})
+                   .contact());
   EXPECT_FALSE(testMotion(reference(), bead, {placedAt(1, 0, 0), placedAt(1, 0, 0)}, closed, {}).contact());
 }
 

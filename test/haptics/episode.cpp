@@ -104,7 +104,7 @@ class Drive {
 // Each axis has its own limits.
 class Hand {
  public:
-  Hand(RandomScenes& random, const PassiveDevice::Options& limits, const Vector3d& towards_D)
+  Hand(RandomScenes& random, const HandLimits& limits, const Vector3d& towards_D)
       : limits_(limits),
         mass_(random.uniform(0.1, 0.5)),
         damping_(random.uniform(1.0, 4.0)),
@@ -122,7 +122,7 @@ class Hand {
   const Vector3d& position() const { return position_; }
 
  private:
-  const PassiveDevice::Options limits_;
+  const HandLimits limits_;
   const double mass_;
   const double damping_;
   const Drive drive_;
@@ -137,7 +137,7 @@ Vector3d shortened(const Vector3d& vector, double length) {
 // The wrist that turns the device; all axes together have a limit.
 class Wrist {
  public:
-  Wrist(RandomScenes& random, const PassiveDevice::Options& limits, const Vector3d& towards_D)
+  Wrist(RandomScenes& random, const HandLimits& limits, const Vector3d& towards_D)
       : limits_(limits),
         inertia_(random.logUniform(1e-4, 1e-3)),
         damping_(random.uniform(5e-3, 2e-2)),
@@ -155,7 +155,7 @@ class Wrist {
   const Eigen::Quaterniond& orientation() const { return orientation_; }
 
  private:
-  const PassiveDevice::Options limits_;
+  const HandLimits limits_;
   const double inertia_;
   const double damping_;
   const Drive drive_;
@@ -265,7 +265,7 @@ class Episode {
   void receive(double now) {
     inputs_.R_WD = R_WD_;
     inputs_.known.tool = tool_;
-    inputs_.known.warning = PermissionInputs::GuardWarning{WarningLevel::kContact, 0, steadyAt(now)};
+    inputs_.known.warning = MotionInputs::GuardWarning{WarningLevel::kContact, 0, steadyAt(now)};
     if (tool_poses_.receive(now)) {
       const Located& tool = tool_poses_.newest()->second;
       inputs_.known.pose = MotionInputs::ToolPose{tool.X, {stampAt(tool.time), steadyAt(now)}};
@@ -307,7 +307,7 @@ class Episode {
   RandomScenes random_;
   const EpisodeOptions options_;
   const LinkTraits force_link_;
-  const PassiveDevice::Options hand_limits_;
+  const HandLimits hand_limits_;
   const ForceOptions force_;
   ForceRenderer renderer_;
   PassiveDevice device_;

@@ -40,7 +40,7 @@ class ForceRendererTest : public testing::Test {
     now_ += milliseconds(1);
     const Timestamps fresh{now().stamp, now().steady};
     if (poses_) inputs_.known.pose = MotionInputs::ToolPose{pose_, {fresh.stamp - pose_delay_, fresh.received}};
-    if (warnings_) inputs_.known.warning = PermissionInputs::GuardWarning{level_, 0, now().steady};
+    if (warnings_) inputs_.known.warning = MotionInputs::GuardWarning{level_, 0, now().steady};
     if (planes_) {
       PlaneSet planes = planeSet({planeAt(Vector3d::UnitZ(), Vector3d::Zero())});
       planes.timestamps = fresh;
@@ -240,24 +240,32 @@ const Instant kNow{Time(std::chrono::seconds(100)), SteadyTime(std::chrono::seco
 
 Timestamps ago(Duration age) { return {kNow.stamp - age, kNow.steady - age}; }
 
-PermissionInputs fresh() {
-  PermissionInputs inputs;
-  inputs.warning = PermissionInputs::GuardWarning{WarningLevel::kClear, 0, kNow.steady};
-  inputs.pose = ago({});
-  inputs.planes = PermissionInputs::Planes{ago({}), kNow.stamp + milliseconds(100)};
-  return inputs;
+std::shared_ptr<PlaneSet> freshPlanes() {
+  auto planes = std::make_shared<PlaneSet>();
+  planes->timestamps = ago({});
+  planes->valid_until = kNow.stamp + milliseconds(100);
+  planes->complete = true;
+  return planes;
 }
 
-ForcePermission decide(const std::function<void(PermissionInputs&)>& change) {
-  PermissionInputs inputs = fresh();
-  change(inputs);
+MotionInputs fresh(const std::shared_ptr<PlaneSet>& planes) {
+  return {planes, std::make_shared<ToolBalls>(), MotionInputs::ToolPose{Isometry3d::Identity(), ago({})},
+          MotionInputs::GuardWarning{WarningLevel::kClear, 0, kNow.steady}};
+}
+
+using Change = std::function<void(MotionInputs&, PlaneSet&)>;
+
+ForcePermission decide(const Change& change) {
+  const std::shared_ptr<PlaneSet> planes = freshPlanes();
+  MotionInputs inputs = fresh(planes);
+  change(inputs, *planes);
   return decideForce(inputs, {}, kNow, {});
 }
 
 TEST(ForcePermissionTest, FreshInputsOfAnyKnownLevelLetTheWholeForceThrough) {
   for (const WarningLevel level :
        {WarningLevel::kClear, WarningLevel::kConsidered, WarningLevel::kReflex, WarningLevel::kContact}) {
-    const ForcePermission permission = decide([&](auto& inputs) { inputs.warning->level = level; });
+    const ForcePermission permission = decide([&](auto& inputs, auto& /*planes*/) { inputs.warning->level = level; });
     EXPECT_EQ(permission.gain, 1.0);
     EXPECT_EQ(permission.cause, PermissionCause::kGuarded);
   }
@@ -266,11 +274,12 @@ TEST(ForcePermissionTest, FreshInputsOfAnyKnownLevelLetTheWholeForceThrough) {
 TEST(ForcePermissionTest, ASilentPosePlanesOrDeviceFadeTheForceOutFrom50To70Milliseconds) {
   for (const auto& [silent, gain] : {std::pair{50, 1.0}, {55, 0.75}, {60, 0.5}, {69, 0.05}, {70, 0.0}, {90, 0.0}}) {
     const Timestamps silent_since = ago(milliseconds(silent));
-    const ForcePermission pose = decide([&](auto& inputs) { inputs.pose = silent_since; });
+    const ForcePermission pose =
+        decide([&](auto& inputs, auto& /*planes*/) { inputs.pose->timestamps = silent_since; });
     EXPECT_NEAR(pose.gain, gain, 1e-9) << silent;
-    const ForcePermission planes = decide([&](auto& inputs) { inputs.planes->timestamps = silent_since; });
+    const ForcePermission planes = decide([&](auto& /*inputs*/, auto& planes) { planes.timestamps = silent_since; });
     EXPECT_NEAR(planes.gain, gain, 1e-9) << silent;
-    const ForcePermission device = decideForce(fresh(), silent_since, kNow, {});
+    const ForcePermission device = decideForce(fresh(freshPlanes()), silent_since, kNow, {});
     EXPECT_NEAR(device.gain, gain, 1e-9) << silent;
     if (silent == 50) continue;
     EXPECT_EQ(device.cause, PermissionCause::kDeviceSilent);
@@ -280,22 +289,26 @@ TEST(ForcePermissionTest, ASilentPosePlanesOrDeviceFadeTheForceOutFrom50To70Mill
 }
 
 TEST(ForcePermissionTest, WhatIsNotKnownLetsNothingThrough) {
-  const std::vector<std::pair<PermissionCause, std::function<void(PermissionInputs&)>>> cases = {
-      {PermissionCause::kNoWarning, [](auto& inputs) { inputs.warning.reset(); }},
-      {PermissionCause::kWarningSilent, [](auto& inputs) { inputs.warning->received -= milliseconds(151); }},
-      {PermissionCause::kUnknown, [](auto& inputs) { inputs.warning->level = WarningLevel::kUnknown; }},
-      {PermissionCause::kNoPose, [](auto& inputs) { inputs.pose.reset(); }},
-      {PermissionCause::kOldPose, [](auto& inputs) { inputs.pose->stamp -= milliseconds(151); }},
-      {PermissionCause::kNoPlanes, [](auto& inputs) { inputs.planes.reset(); }},
-      {PermissionCause::kPlanesExpired, [](auto& inputs) { inputs.planes->valid_until -= milliseconds(101); }},
-      {PermissionCause::kIncomplete, [](auto& inputs) { inputs.planes->complete = false; }},
-      {PermissionCause::kNoTool, [](auto& inputs) { inputs.planes->tool_known = false; }}};
+  const std::vector<std::pair<PermissionCause, Change>> cases = {
+      {PermissionCause::kNoWarning, [](auto& inputs, auto& /*planes*/) { inputs.warning.reset(); }},
+      {PermissionCause::kWarningSilent,
+       [](auto& inputs, auto& /*planes*/) { inputs.warning->received -= milliseconds(151); }},
+      {PermissionCause::kUnknown,
+       [](auto& inputs, auto& /*planes*/) { inputs.warning->level = WarningLevel::kUnknown; }},
+      {PermissionCause::kNoPose, [](auto& inputs, auto& /*planes*/) { inputs.pose.reset(); }},
+      {PermissionCause::kOldPose,
+       [](auto& inputs, auto& /*planes*/) { inputs.pose->timestamps.stamp -= milliseconds(151); }},
+      {PermissionCause::kNoPlanes, [](auto& inputs, auto& /*planes*/) { inputs.planes.reset(); }},
+      {PermissionCause::kPlanesExpired,
+       [](auto& /*inputs*/, auto& planes) { planes.valid_until -= milliseconds(101); }},
+      {PermissionCause::kIncomplete, [](auto& /*inputs*/, auto& planes) { planes.complete = false; }},
+      {PermissionCause::kNoTool, [](auto& inputs, auto& /*planes*/) { inputs.tool.reset(); }}};
   for (const auto& [cause, change] : cases) {
     const ForcePermission permission = decide(change);
     EXPECT_EQ(permission.gain, 0.0) << textOf(cause);
     EXPECT_EQ(permission.cause, cause) << textOf(cause);
   }
-  EXPECT_EQ(decide([](auto& inputs) { inputs.warning->received -= milliseconds(150); }).gain, 1.0);
+  EXPECT_EQ(decide([](auto& inputs, auto& /*planes*/) { inputs.warning->received -= milliseconds(150); }).gain, 1.0);
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ TEST(PassiveDeviceTest, ATorqueIsLimitedLikeAForce) {
 // work between two positions that are alike, or turns as it likes.
 class WorstWrist {
  public:
-  WorstWrist(RandomScenes& random, const PassiveDevice::Options& limits) : random_(random), limits_(limits) {}
+  WorstWrist(RandomScenes& random, const HandLimits& limits) : random_(random), limits_(limits) {}
 
   Vector3d turn(const Vector3d& torque_D, double seconds) {
     if (random_.chance(0.01)) choose();
@@ -86,7 +86,7 @@ class WorstWrist {
   }
 
   RandomScenes& random_;
-  const PassiveDevice::Options limits_;
+  const HandLimits limits_;
   Mode mode_ = Mode::kAlong;
   double lap_ = 100.0;  // [rad/s]
   double phase_ = 0.0;
@@ -97,7 +97,7 @@ class WorstWrist {
 
 // Positions come every so many milliseconds, and late. Returns the largest energy of an axis.
 double largestTurnEnergy(RandomScenes& random, const ForceOptions& force, int period, double delay, bool passive) {
-  const PassiveDevice::Options limits;
+  const HandLimits limits;
   PassiveDevice device(force, limits);
   WorstWrist wrist(random, limits);
   std::deque<std::pair<double, Quaterniond>> seen;
@@ -139,7 +139,7 @@ TEST(PassiveDeviceTest, NoHandThatTurnsGetsMoreThanTheToleranceAboutAnyAxis) {
   EXPECT_GT(active, static_cast<int>(cases / 4)) << "the hand does its worst";
 }
 
-constexpr TurnLimits kLimits{/*max_rate=*/5.0, /*max_acceleration=*/500.0};
+constexpr HandLimits kLimits{0.5, 50.0, /*max_turn_rate=*/5.0, /*max_turn_acceleration=*/500.0};
 
 Vector3d rotationVector(const Quaterniond& turn) {
   const AngleAxisd from(turn.normalized());
@@ -175,7 +175,7 @@ TEST(ConingBoundTest, AHandThatGoesAroundAConeTurnsMoreThanItsEndsShow) {
 
 TEST(ConingBoundTest, IsNothingForTheShortestPath) {
   EXPECT_EQ(coningBound(0.0, 0.0, kLimits), 0.0);
-  EXPECT_LT(coningBound(0.3, 0.06, {5.0, 1e-3}), 1e-6) << "the rate cannot change";
+  EXPECT_LT(coningBound(0.3, 0.06, {0.5, 50.0, 5.0, 1e-3}), 1e-6) << "the rate cannot change";
 }
 
 TEST(ConingBoundTest, WhereTheHandMayHaveTurnedAllAroundOnlyTheLongestWayIsKnown) {
@@ -188,13 +188,13 @@ TEST(ConingBoundTest, NoMotionTurnsFartherFromWhatItsEndsShow) {
   double closest = 0.0;
   for (std::uint64_t i = 0, cases = caseCount(3000); i < cases; ++i) {
     const double rate = random.logUniform(0.5, 20.0);
-    const TurnLimits limits{rate, rate * random.logUniform(2.0, 1000.0)};
+    const HandLimits limits{0.5, 50.0, rate, rate * random.logUniform(2.0, 1000.0)};
     const double interval = random.logUniform(1e-3, 0.3);
     constexpr int kParts = 200;
     const double step = interval / kParts;
     const bool around = random.chance(0.3);
     const Quaterniond frame = Quaterniond::FromTwoVectors(Vector3d::UnitZ(), random.direction());
-    const double lap = limits.max_acceleration / rate * random.uniform(0.2, 1.0);
+    const double lap = limits.max_turn_acceleration / rate * random.uniform(0.2, 1.0);
     const double changes = random.uniform(0.0, 0.1);
     Vector3d target = rate * random.direction();
     Vector3d w = random.uniform(0.0, 1.0) * target;
@@ -202,7 +202,7 @@ TEST(ConingBoundTest, NoMotionTurnsFartherFromWhatItsEndsShow) {
     for (int k = 0; k < kParts; ++k) {
       if (random.chance(changes)) target = rate * random.direction();
       const Vector3d change = target - w;
-      w += std::min(1.0, limits.max_acceleration * step / std::max(1e-12, change.norm())) * change;
+      w += std::min(1.0, limits.max_turn_acceleration * step / std::max(1e-12, change.norm())) * change;
       const double angle = lap * step * (k + 0.5);
       turned.step(around ? Vector3d(frame * Vector3d(rate * std::cos(angle), rate * std::sin(angle), 0.0)) : w, step);
     }

@@ -154,6 +154,7 @@ class JawsTest : public InteractionFinderTest {
   PoseWithFrames poseOf(const Isometry3d& X_WT, const Isometry3d& X_TB, Duration at = 0s) const {
     PoseWithFrames pose = poseAt(X_WT, at);
     pose.bodies = {{X_WT * X_TB}, {X_WT * X_TA_}};
+    pose.state.positions = {0.0};
     return pose;
   }
   Interaction findOfJaws(const PoseWithFrames& pose) {

@@ -157,6 +157,7 @@ TEST_F(JointTimelineTest, AnotherMayPublishAJointThatWasSilentForASecond) {
 TEST_F(JointTimelineTest, RefusesWhatIsNoPosition) {
   EXPECT_NE(refusalOf(timeline_, "driver", 1.0, {{0, std::nan("")}}).find("joint 'a' is at nan"), std::string::npos);
   EXPECT_NE(refusalOf(timeline_, "driver", 1.0, {{1, 1e5}}).find("within 1e4"), std::string::npos);
+  EXPECT_NE(refusalOf(timeline_, "driver", 1.0, {{0, 1e227}}).find("joint 'a' is at 1e+227, but"), std::string::npos);
   EXPECT_NE(refusalOf(timeline_, "driver", 1.0, {{1, 0.0}, {1, 0.0}}).find("named twice"), std::string::npos);
 }
 

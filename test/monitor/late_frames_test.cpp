@@ -15,14 +15,13 @@ class LateFramesTest : public testing::Test {
   /// Transforms every `period_ms`, each `late_ms` late, so many in all.
   void send(int period_ms, int late_ms, int count) {
     for (int i = 0; i < count; ++i, stamp_ms_ += period_ms) {
-      frames_.add("tray", at(stamp_ms_).stamp, at(stamp_ms_ + late_ms), milliseconds(100));
+      addTransform(inputs_.frames, "tray", at(stamp_ms_).stamp, at(stamp_ms_ + late_ms), milliseconds(100));
       now_ms_ = stamp_ms_ + late_ms;
     }
   }
   bool isLateAt(int ms) const { return lateAge(inputs_.frames.at(0), at(ms), milliseconds(100)).has_value(); }
 
   WarningInputs inputs_;
-  LateFrames frames_{inputs_};
   int stamp_ms_ = 1000;
   int now_ms_ = 0;
 };
@@ -82,8 +81,8 @@ TEST_F(LateFramesTest, AFrameBeginsAnewWhenTimeGoesBack) {
 
 TEST_F(LateFramesTest, ForgetsFramesThatAreGone) {
   send(33, 10, 2);
-  frames_.add("arm", at(0).stamp, at(0), milliseconds(100));
-  frames_.keepOnly({"arm"});
+  addTransform(inputs_.frames, "arm", at(0).stamp, at(0), milliseconds(100));
+  keepOnly({"arm"}, inputs_.frames);
   ASSERT_EQ(inputs_.frames.size(), 1U);
   EXPECT_EQ(inputs_.frames[0].name, "arm");
 }

@@ -183,17 +183,17 @@ TEST_F(StandInsTest, AreForgottenWithWhatWasSwept) {
 }
 
 TEST_F(StandInsTest, KeepNoTrianglesInMemory) {
-  StandIns stand_ins;
+  std::vector<ReplacedTriangles> replaced;
   Workpieces before = {workpiece("liver", 1000)};
   const Workpieces after = {workpiece("liver", 1010)};
-  stand_ins.update(before, after, at(1010).steady);
-  EXPECT_EQ(stand_ins.until(before, *after[0]), at(1010).steady + StandIns::kTime);
+  updateStandIns(before, after, at(1010).steady, replaced);
+  EXPECT_EQ(standInUntil(replaced, before, *after[0]), at(1010).steady + kStandInTime);
   const std::weak_ptr<const Workpiece> watched = before[0];
   const std::weak_ptr<const std::vector<Triangle>> triangles = before[0]->mesh_M.sharedTriangles();
   before.clear();
   EXPECT_TRUE(watched.expired());
   EXPECT_TRUE(triangles.expired());
-  EXPECT_FALSE(stand_ins.until(before, *after[0]));
+  EXPECT_FALSE(standInUntil(replaced, before, *after[0]));
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ inline Instant at(int ms) { return {Time(milliseconds(ms)), SteadyTime(milliseco
 inline Timestamps timestampsAt(int ms) { return {at(ms).stamp, at(ms).steady}; }
 
 inline std::shared_ptr<const Workpiece> workpiece(const std::string& id, int ms, std::uint32_t revision = 1) {
-  const TriangleMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, SurfaceKind::kSheet);
+  const TriangleMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, /*is_sheet=*/true);
   return std::make_shared<const Workpiece>(Workpiece{id, revision, at(ms).stamp, at(ms).steady, "table", mesh});
 }
 

@@ -144,7 +144,10 @@ std::vector<std::pair<WarningInputs, std::uint32_t>> inputsAndReasons() {
   add(kNotSwept, [](WarningInputs& inputs) { inputs.objects = {object(20ms, /*swept=*/false)}; });
   add(kNotCovered, [](WarningInputs& inputs) { inputs.covered_until = kNow.stamp + 999ms; });
   add(kDetectorFault, [](WarningInputs& inputs) { inputs.faults[kDetectorFault] = "no canary"; });
-  add(kOverload, [](WarningInputs& inputs) { inputs.overload = WarningInputs::Backlog{50ms, kNow.steady}; });
+  add(kOverload, [](WarningInputs& inputs) {
+    inputs.overload = kNow.steady;
+    inputs.backlog = 50ms;
+  });
   return all;
 }
 
@@ -223,7 +226,7 @@ TEST(WarningTest, ReportsTimeAndProbabilityOfTheCollisionThatItNames) {
   EXPECT_EQ(another.probability, 0.0);
   entryOf("spleen", inputs).reflex = alarmOf(150ms, "spleen");
   const Warning same = warningNow(inputs);
-  EXPECT_EQ(same.text, "REFLEX: collision with 'spleen' expected in 0.50 s");
+  EXPECT_EQ(same.text, "REFLEX: collision with 'spleen' was near 0.15 s ago, expected in 0.50 s");
   EXPECT_EQ(same.time_to_collision, 500ms);
   EXPECT_EQ(same.probability, 0.75);
 }
@@ -275,6 +278,42 @@ TEST(WarningTest, WhatIsMerelyProbableHasNoTime) {
   EXPECT_EQ(warning.probability, 0.5);
   EXPECT_EQ(warning.probability_interval, 100ms);
   EXPECT_EQ(warning.text, "REFLEX: collision with 'spleen' 50 % probable within 0.10 s");
+}
+
+// The path meets it later, but it may leave the path.
+TEST(WarningTest, ATimeBeyondTheIntervalIsSaidWithTheProbabilityWithinIt) {
+  const auto textOf = [](Duration contact, Duration reflex, double probability) {
+    WarningInputs inputs = allGood();
+    PredictedContact& predicted = predict(contact, inputs);
+    predicted.reflex = kNow.stamp + reflex;
+    predicted.reflex_probability = probability;
+    return warningNow(inputs).text;
+  };
+  EXPECT_EQ(textOf(450ms, 80ms, 0.12),
+            "REFLEX: collision with 'spleen' 12 % probable within 0.10 s, expected in 0.45 s");
+  EXPECT_EQ(textOf(120ms, 0ms, 0.004),
+            "REFLEX: collision with 'spleen' < 1 % probable within 0.10 s, expected in 0.12 s");
+  EXPECT_EQ(textOf(90ms, 80ms, 0.5), "REFLEX: collision with 'spleen' expected in 0.09 s");
+  EXPECT_EQ(textOf(450ms, 450ms, 0.12), "CONSIDERED: collision with 'spleen' expected in 0.45 s");
+}
+
+TEST(WarningTest, AContactIsSaidWithTheLinkThatMeetsIt) {
+  WarningInputs inputs = allGood();
+  inputs.links = {"palm", "left", "payload"};
+  const auto textOf = [&](const WarningInputs::Contact& contact) {
+    inputs.contact = contact;
+    return warningNow(inputs).text;
+  };
+  const bool lasting = true;
+  EXPECT_EQ(textOf({"table", {7, 8}, kNow.steady, lasting, /*inside=*/false, /*tool_piece=*/2}),
+            "CONTACT: tool meets 'table', 2 triangles, by link 'payload'");
+  EXPECT_EQ(textOf({"table", {}, kNow.steady, lasting, /*inside=*/true, /*tool_piece=*/0}),
+            "CONTACT: tool is inside 'table', by link 'palm'");
+  EXPECT_EQ(textOf({"table", {7}, kNow.steady - 100ms, /*lasting=*/false, /*inside=*/false, /*tool_piece=*/1}),
+            "CONTACT: tool touched 'table' 0.10 s ago, 1 triangle, by link 'left'");
+  EXPECT_EQ(textOf({"table", {7}, kNow.steady, lasting, /*inside=*/false, /*tool_piece=*/3}),
+            "CONTACT: tool meets 'table', 1 triangle");
+  EXPECT_EQ(textOf({"table", {7}, kNow.steady, lasting}), "CONTACT: tool meets 'table', 1 triangle");
 }
 
 TEST(WarningTest, TheProbabilityIsThatOfTheIntervalOfThePredictedContact) {

@@ -10,21 +10,15 @@ namespace {
 using std::chrono::milliseconds;
 
 TEST(CommandSilenceTest, IsSilentUntilTheFirstCommand) {
-  CommandSilence silence(milliseconds(100));
-  EXPECT_TRUE(silence.silent(steadyAt(-1)));
-  EXPECT_TRUE(silence.silent(steadyAt(1)));
-  silence.received(steadyAt(2));
-  EXPECT_FALSE(silence.silent(steadyAt(2)));
+  EXPECT_TRUE(isSilent({}, milliseconds(100), steadyAt(-1)));
+  EXPECT_TRUE(isSilent({}, milliseconds(100), steadyAt(1)));
+  EXPECT_FALSE(isSilent(steadyAt(2), milliseconds(100), steadyAt(2)));
 }
 
 TEST(CommandSilenceTest, BeginsWhenTheNewestCommandIsOlderThanTheTimeoutAndEndsWithTheNext) {
-  CommandSilence silence(milliseconds(100));
-  silence.received(steadyAt(0));
-  silence.received(steadyAt(50));
-  EXPECT_FALSE(silence.silent(steadyAt(150)));
-  EXPECT_TRUE(silence.silent(steadyAt(151)));
-  silence.received(steadyAt(1000));
-  EXPECT_FALSE(silence.silent(steadyAt(1100)));
+  EXPECT_FALSE(isSilent(steadyAt(50), milliseconds(100), steadyAt(150)));
+  EXPECT_TRUE(isSilent(steadyAt(50), milliseconds(100), steadyAt(151)));
+  EXPECT_FALSE(isSilent(steadyAt(1000), milliseconds(100), steadyAt(1100)));
 }
 
 }  // namespace

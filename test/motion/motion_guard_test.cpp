@@ -34,7 +34,7 @@ std::shared_ptr<const PlaneSet> wall(int ms) {
 
 MotionInputs inputsAt(int ms, double x) {
   return {wall(ms), needle(), MotionInputs::ToolPose{along(x), received(ms)},
-          PermissionInputs::GuardWarning{WarningLevel::kClear, 0, at(ms).steady}};
+          MotionInputs::GuardWarning{WarningLevel::kClear, 0, at(ms).steady}};
 }
 
 MotionCommand moving(const Vector3d& v_W, int ms, const Vector3d& w_W = Vector3d::Zero()) {
@@ -43,7 +43,7 @@ MotionCommand moving(const Vector3d& v_W, int ms, const Vector3d& w_W = Vector3d
 
 MotionGuardOptions withEscape() {
   MotionGuardOptions options;
-  options.permission.escape_speed = 0.01;
+  options.escape_speed = 0.01;
   return options;
 }
 
@@ -267,7 +267,7 @@ TEST(MotionGuardTest, OptionsOutOfRangeAreRefused) {
   options.dead_time = milliseconds(-1);
   EXPECT_TRUE(has(refusal([&] { MotionGuard guard(options); }), "lag"));
   options = {};
-  options.permission.escape_speed = -1.0;
+  options.escape_speed = -1.0;
   EXPECT_TRUE(has(refusal([&] { MotionGuard guard(options); }), "escape"));
 }
 

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <initializer_list>
+#include <memory>
+#include <optional>
 
 #include "motion/times.h"
 #include "sweep_guard/monitor/reason.h"
@@ -16,20 +18,25 @@ using std::chrono::milliseconds;
 class MotionPermissionTest : public testing::Test {
  protected:
   MotionPermissionTest() {
-    inputs_.command = received(990);
-    inputs_.warning = PermissionInputs::GuardWarning{WarningLevel::kClear, 0, at(990).steady};
-    inputs_.planes = PermissionInputs::Planes{received(990), at(1140).stamp};
-    inputs_.pose = received(990);
+    inputs_.warning = MotionInputs::GuardWarning{WarningLevel::kClear, 0, at(990).steady};
+    planes_->timestamps = received(990);
+    planes_->valid_until = at(1140).stamp;
+    planes_->complete = true;
+    inputs_.planes = planes_;
+    inputs_.tool = std::make_shared<ToolBalls>();
+    inputs_.pose = MotionInputs::ToolPose{Eigen::Isometry3d::Identity(), received(990)};
   }
 
   void expect(Permission permission, PermissionCause cause, int ms = 1000) const {
-    const PermissionDecision decision = decidePermission(inputs_, at(ms), limits_);
+    const PermissionDecision decision = decidePermission(inputs_, command_, at(ms), limits_);
     EXPECT_EQ(static_cast<int>(decision.permission), static_cast<int>(permission));
     EXPECT_EQ(std::string(textOf(decision.cause)), textOf(cause));
   }
 
-  PermissionInputs inputs_;
-  PermissionLimits limits_;
+  std::optional<Timestamps> command_ = received(990);
+  const std::shared_ptr<PlaneSet> planes_ = std::make_shared<PlaneSet>();
+  MotionInputs inputs_;
+  MotionGuardOptions limits_;
 };
 
 TEST_F(MotionPermissionTest, LimitsAFreshCommandAtEveryLevelButUnknown) {
@@ -43,13 +50,13 @@ TEST_F(MotionPermissionTest, LimitsAFreshCommandAtEveryLevelButUnknown) {
 
 TEST_F(MotionPermissionTest, NeedsACommandThatIsFreshOnBothClocks) {
   limits_.escape_speed = 0.01;  // never for an old command
-  inputs_.command = {at(1000).stamp, at(899).steady};
+  command_ = {at(1000).stamp, at(899).steady};
   expect(Permission::kStop, PermissionCause::kOldCommand);
-  inputs_.command = {at(899).stamp, at(1000).steady};
+  command_ = {at(899).stamp, at(1000).steady};
   expect(Permission::kStop, PermissionCause::kOldCommand);
-  inputs_.command = {at(900).stamp, at(900).steady};
+  command_ = {at(900).stamp, at(900).steady};
   expect(Permission::kLimited, PermissionCause::kGuarded);
-  inputs_.command.reset();
+  command_.reset();
   expect(Permission::kStop, PermissionCause::kNoCommand);
 }
 
@@ -68,42 +75,42 @@ TEST_F(MotionPermissionTest, NeedsALevel) {
 }
 
 TEST_F(MotionPermissionTest, NeedsPlanesWithinTheSilence) {
-  inputs_.planes->timestamps.received = at(850).steady;
+  planes_->timestamps.received = at(850).steady;
   expect(Permission::kLimited, PermissionCause::kGuarded);
-  inputs_.planes->timestamps.received = at(849).steady;
+  planes_->timestamps.received = at(849).steady;
   expect(Permission::kStop, PermissionCause::kPlanesSilent);
   inputs_.planes.reset();
   expect(Permission::kStop, PermissionCause::kNoPlanes);
 }
 
 TEST_F(MotionPermissionTest, NeedsPlanesThatAreValid) {
-  inputs_.planes->valid_until = at(1000).stamp;
+  planes_->valid_until = at(1000).stamp;
   expect(Permission::kLimited, PermissionCause::kGuarded);
-  inputs_.planes->valid_until = at(999).stamp;
+  planes_->valid_until = at(999).stamp;
   expect(Permission::kStop, PermissionCause::kPlanesExpired);
 }
 
 TEST_F(MotionPermissionTest, NeedsAPoseWithinTheSilence) {
-  inputs_.pose->received = at(850).steady;
+  inputs_.pose->timestamps.received = at(850).steady;
   expect(Permission::kLimited, PermissionCause::kGuarded);
-  inputs_.pose->received = at(849).steady;
+  inputs_.pose->timestamps.received = at(849).steady;
   expect(Permission::kStop, PermissionCause::kPoseSilent);
   inputs_.pose.reset();
   expect(Permission::kStop, PermissionCause::kNoPose);
 }
 
 TEST_F(MotionPermissionTest, NeedsAPoseThatIsNotOldByItsStamp) {
-  inputs_.pose->stamp = at(500).stamp;
+  inputs_.pose->timestamps.stamp = at(500).stamp;
   expect(Permission::kLimited, PermissionCause::kGuarded);
-  inputs_.pose->stamp = at(499).stamp;
+  inputs_.pose->timestamps.stamp = at(499).stamp;
   expect(Permission::kStop, PermissionCause::kOldPose);
 }
 
 TEST_F(MotionPermissionTest, NeedsPlanesOfAllWorkpiecesForAKnownTool) {
   limits_.escape_speed = 0.01;  // never with these
-  inputs_.planes->tool_known = false;
+  inputs_.tool.reset();
   expect(Permission::kStop, PermissionCause::kNoTool);
-  inputs_.planes->complete = false;
+  planes_->complete = false;
   expect(Permission::kStop, PermissionCause::kIncomplete);
 }
 
@@ -127,11 +134,11 @@ TEST_F(EscapeTest, IsLeftWhenTheGuardKnowsAgain) {
 }
 
 TEST_F(EscapeTest, NeedsPlanesThatAreYoungOnBothClocks) {
-  inputs_.planes->timestamps = received(500);
+  planes_->timestamps = received(500);
   expect(Permission::kEscape, PermissionCause::kUnknown);
-  inputs_.planes->timestamps = {at(499).stamp, at(500).steady};
+  planes_->timestamps = {at(499).stamp, at(500).steady};
   expect(Permission::kStop, PermissionCause::kUnknown);
-  inputs_.planes->timestamps = {at(500).stamp, at(499).steady};
+  planes_->timestamps = {at(500).stamp, at(499).steady};
   expect(Permission::kStop, PermissionCause::kUnknown);
   inputs_.planes.reset();
   expect(Permission::kStop, PermissionCause::kUnknown);
@@ -158,18 +165,19 @@ TEST_F(EscapeTest, IsPossibleWhileTheGuardIsSilent) {
 
 TEST_F(EscapeTest, IsPossibleWithPlanesThatAreSilentOrExpired) {
   inputs_.warning->level = WarningLevel::kClear;
-  inputs_.planes->timestamps = received(600);
+  planes_->timestamps = received(600);
   expect(Permission::kEscape, PermissionCause::kPlanesSilent);
-  inputs_.planes = PermissionInputs::Planes{received(990), at(999).stamp};
+  planes_->timestamps = received(990);
+  planes_->valid_until = at(999).stamp;
   expect(Permission::kEscape, PermissionCause::kPlanesExpired);
 }
 
 TEST_F(EscapeTest, NeedsAPoseThatIsYoungOnBothClocks) {
-  inputs_.pose = received(500);
+  inputs_.pose->timestamps = received(500);
   expect(Permission::kEscape, PermissionCause::kUnknown);
-  inputs_.pose = {at(499).stamp, at(500).steady};
+  inputs_.pose->timestamps = {at(499).stamp, at(500).steady};
   expect(Permission::kStop, PermissionCause::kUnknown);
-  inputs_.pose = {at(500).stamp, at(499).steady};
+  inputs_.pose->timestamps = {at(500).stamp, at(499).steady};
   expect(Permission::kStop, PermissionCause::kUnknown);
   inputs_.pose.reset();
   expect(Permission::kStop, PermissionCause::kUnknown);

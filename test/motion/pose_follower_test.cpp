@@ -27,10 +27,10 @@ double angleBetween(const Isometry3d& a, const Isometry3d& b) {
   return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();
 }
 
-PoseFollower follower(PoseMode mode) { return PoseFollower({mode, 0.25, 1.0}); }
+PoseFollower follower(bool incremental) { return PoseFollower({0.25, 1.0}, incremental); }
 
 TEST(PoseFollowerTest, SendsACommandWithinReachBitForBit) {
-  PoseFollower follower = sweep_guard_core::follower(PoseMode::kAbsolute);
+  PoseFollower follower = sweep_guard_core::follower(/*incremental=*/false);
   follower.begin(pose({0.1, 0.2, 0.3}));
   const Isometry3d command_WT = pose({0.1013, 0.2, 0.2999}, 0.009);
   const Isometry3d sent_WT = follower.moveOn(follower.towards(command_WT, kPeriod));
@@ -39,7 +39,7 @@ TEST(PoseFollowerTest, SendsACommandWithinReachBitForBit) {
 }
 
 TEST(PoseFollowerTest, CatchesUpAtTheLargestSpeedAndTurnRate) {
-  PoseFollower follower = sweep_guard_core::follower(PoseMode::kAbsolute);
+  PoseFollower follower = sweep_guard_core::follower(/*incremental=*/false);
   follower.begin(pose(Vector3d::Zero()));
   const Isometry3d command_WT = pose({0.01, 0.0, 0.0}, 0.1);
   for (int i = 1; i <= 12; ++i) {
@@ -51,8 +51,8 @@ TEST(PoseFollowerTest, CatchesUpAtTheLargestSpeedAndTurnRate) {
 }
 
 TEST(PoseFollowerTest, ZeroSendsThePoseOfBefore) {
-  for (const PoseMode mode : {PoseMode::kAbsolute, PoseMode::kIncremental}) {
-    PoseFollower follower = sweep_guard_core::follower(mode);
+  for (const bool incremental : {false, true}) {
+    PoseFollower follower = sweep_guard_core::follower(incremental);
     follower.begin(pose({0.1, 0.0, 0.0}, 0.5));
     follower.towards(pose({0.2, 0.0, 0.0}), kPeriod);
     follower.moveOn({});
@@ -64,7 +64,7 @@ TEST(PoseFollowerTest, ZeroSendsThePoseOfBefore) {
 }
 
 TEST(PoseFollowerTest, CatchesUpWithWhatWasHeldBackIfAbsolute) {
-  PoseFollower follower = sweep_guard_core::follower(PoseMode::kAbsolute);
+  PoseFollower follower = sweep_guard_core::follower(/*incremental=*/false);
   follower.begin(pose(Vector3d::Zero()));
   follower.towards(pose({0.002, 0.0, 0.0}), kPeriod);
   follower.moveOn({});
@@ -73,7 +73,7 @@ TEST(PoseFollowerTest, CatchesUpWithWhatWasHeldBackIfAbsolute) {
 }
 
 TEST(PoseFollowerTest, LosesWhatWasHeldBackIfIncremental) {
-  PoseFollower follower = sweep_guard_core::follower(PoseMode::kIncremental);
+  PoseFollower follower = sweep_guard_core::follower(/*incremental=*/true);
   follower.begin(pose({1.0, 0.0, 0.0}));
   follower.moveOn(follower.towards(pose({5.0, 0.0, 0.0}), kPeriod));
   EXPECT_DOUBLE_EQ(follower.sent().translation().x(), 1.0);
@@ -84,7 +84,7 @@ TEST(PoseFollowerTest, LosesWhatWasHeldBackIfIncremental) {
 }
 
 TEST(PoseFollowerTest, RebasingIsAClutch) {
-  PoseFollower follower = sweep_guard_core::follower(PoseMode::kIncremental);
+  PoseFollower follower = sweep_guard_core::follower(/*incremental=*/true);
   follower.begin(pose({1.0, 0.0, 0.0}, 0.2));
   follower.moveOn(follower.towards(pose({5.0, 0.0, 0.0}), kPeriod));
   follower.rebase();
@@ -97,7 +97,7 @@ TEST(PoseFollowerTest, RebasingIsAClutch) {
 }
 
 TEST(PoseFollowerTest, TheFirstCommandOfAClutchMovesNothing) {
-  PoseFollower follower = sweep_guard_core::follower(PoseMode::kIncremental);
+  PoseFollower follower = sweep_guard_core::follower(/*incremental=*/true);
   follower.begin(pose(Vector3d::Zero()));
   EXPECT_EQ(follower.towards(pose({1.0, 0.0, 0.0}), kPeriod).v_W, Vector3d::Zero());
 }
@@ -105,8 +105,7 @@ TEST(PoseFollowerTest, TheFirstCommandOfAClutchMovesNothing) {
 TEST(PoseFollowerTest, ThePoseSentNeverJumps) {
   RandomScenes random(5);
   for (std::uint64_t i = 0; i < caseCount(1000); ++i) {
-    PoseFollower follower =
-        sweep_guard_core::follower(random.chance(0.5) ? PoseMode::kAbsolute : PoseMode::kIncremental);
+    PoseFollower follower = sweep_guard_core::follower(/*incremental=*/!random.chance(0.5));
     follower.begin(pose(random.direction(), random.uniform(-3.0, 3.0)));
     for (int step = 0; step < 10; ++step) {
       const Isometry3d before_WT = follower.sent();
@@ -125,8 +124,8 @@ TEST(PoseFollowerTest, ThePoseSentNeverJumps) {
 TEST(PoseFollowerTest, RefusesLimitsThatAreNotPositive) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double bad : {0.0, -1.0, nan}) {
-    EXPECT_THROW(PoseFollower({PoseMode::kAbsolute, bad, 1.0}), InvalidInput);
-    EXPECT_THROW(PoseFollower({PoseMode::kAbsolute, 1.0, bad}), InvalidInput);
+    EXPECT_THROW(PoseFollower({bad, 1.0}, /*incremental=*/false), InvalidInput);
+    EXPECT_THROW(PoseFollower({1.0, bad}, /*incremental=*/false), InvalidInput);
   }
 }
 

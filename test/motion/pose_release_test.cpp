@@ -90,10 +90,10 @@ class StoppedRobot {
 // Sends what is let through of a commanded pose to the robot. The tool is a point.
 class PoseSession {
  public:
-  explicit PoseSession(const RobotDelays& delays, PoseMode mode = PoseMode::kAbsolute, double deceleration = 1.0)
+  explicit PoseSession(const RobotDelays& delays, bool incremental = false, double deceleration = 1.0)
       : delays_(delays),
         robot_(delays),
-        follower_(followerOf(delays, mode, deceleration)),
+        follower_(followerOf(delays, incremental, deceleration)),
         guard_(guardOf(delays, deceleration)) {}
 
   // The robot comes from -x. Empty: no wall.
@@ -137,11 +137,11 @@ class PoseSession {
   }
 
  private:
-  static PoseFollower followerOf(const RobotDelays& delays, PoseMode mode, double deceleration) {
-    PoseFollower::Options options{mode, kMaxPoseSpeed, kMaxPoseTurnRate, {}, {}, deceleration};
+  static PoseFollower followerOf(const RobotDelays& delays, bool incremental, double deceleration) {
+    PoseLeash::Options options{kMaxPoseSpeed, kMaxPoseTurnRate, {}, {}, deceleration};
     options.dead_time = milliseconds(delays.dead_time_ms);
     options.time_constant = milliseconds(delays.lag_ms);
-    return PoseFollower(options);
+    return PoseFollower(options, incremental);
   }
   static MotionGuard guardOf(const RobotDelays& delays, double deceleration) {
     MotionGuardOptions options;
@@ -157,7 +157,7 @@ class PoseSession {
     if (wall_) planes.planes.push_back({0, -Vector3d::UnitX(), Vector3d(*wall_, 0.0, 0.0), 0.0, 0.0});
     return {std::make_shared<const PlaneSet>(planes), tool_,
             MotionInputs::ToolPose{robot_.measured(), received(now_ms_ - delays_.age_ms)},
-            PermissionInputs::GuardWarning{level_, 0, at(now_ms_).steady}};
+            MotionInputs::GuardWarning{level_, 0, at(now_ms_).steady}};
   }
 
   // As motion_guard does.
@@ -226,9 +226,9 @@ TEST(PoseReleaseTest, ThePoseSentLeadsAToolThatFollowsByNoMoreThanItsLagAndCosts
 }
 
 TEST(PoseReleaseTest, ThePoseSentWaitsForAToolThatStands) {
-  for (const PoseMode mode : {PoseMode::kAbsolute, PoseMode::kIncremental}) {
+  for (const bool incremental : {false, true}) {
     for (const RobotDelays& delays : allDelays()) {
-      PoseSession session(delays, mode);
+      PoseSession session(delays, incremental);
       session.rest(200);
       session.robot().stand(true);
       session.run(session.untilFound(), handAt,
@@ -253,10 +253,10 @@ void standOnTheWay(PoseSession& session, const std::function<Isometry3d(int)>& c
 }
 
 TEST(PoseReleaseTest, AToolThatIsReleasedIsNotFasterThanOneThatFollows) {
-  for (const PoseMode mode : {PoseMode::kAbsolute, PoseMode::kIncremental}) {
+  for (const bool incremental : {false, true}) {
     for (const RobotDelays& delays : allDelays()) {
       for (const int stood_ms : {300, 1000, 1003, 5000}) {
-        PoseSession session(delays, mode);
+        PoseSession session(delays, incremental);
         standOnTheWay(session, handAt, session.untilFound() + stood_ms);
         session.run(1500, handAt);
         EXPECT_LE(session.fastest(), kMaxPoseSpeed * ofStepsAlone(delays) * 1.02) << describe(delays);
@@ -290,10 +290,10 @@ TEST(PoseReleaseTest, AToolThatIsReleasedGoesOnToTheCommandedPose) {
 
 // Also one that is nearer than the pose sent.
 TEST(PoseReleaseTest, NothingPassesAWallThatCameWhileTheToolStood) {
-  for (const PoseMode mode : {PoseMode::kAbsolute, PoseMode::kIncremental}) {
+  for (const bool incremental : {false, true}) {
     for (const RobotDelays& delays : allDelays()) {
       for (const double gap : {0.0005, 0.003, 0.006, 0.02, 0.1}) {
-        PoseSession session(delays, mode);
+        PoseSession session(delays, incremental);
         standOnTheWay(session, handAt, 1000);
         session.robot().stand(true);
         const double wall = session.robot().x() + gap;
@@ -323,7 +323,7 @@ TEST(PoseReleaseTest, ThePoseSentGoesBackWithAToolThatIsPushedBack) {
 TEST(PoseReleaseTest, AtAStopThePoseIsDecidedOnceAndNotBeyondThePoseSentLast) {
   for (const RobotDelays& delays : allDelays()) {
     for (const double deceleration : {0.5, 5.0, 50.0}) {
-      PoseSession session(delays, PoseMode::kAbsolute, deceleration);
+      PoseSession session(delays, /*incremental=*/false, deceleration);
       session.rest(200);
       session.run(600, toFarAway);
       const double last = session.sent().translation().x();
@@ -342,7 +342,7 @@ TEST(PoseReleaseTest, AtAStopThePoseIsDecidedOnceAndNotBeyondThePoseSentLast) {
 }
 
 TEST(PoseReleaseTest, AFastBrakeIsHeldBeforeThePoseSentLast) {
-  PoseSession session({20, 100, 10, 10}, PoseMode::kAbsolute, 50.0);
+  PoseSession session({20, 100, 10, 10}, /*incremental=*/false, 50.0);
   session.rest(200);
   session.run(600, toFarAway);
   const double last = session.sent().translation().x();
@@ -353,9 +353,9 @@ TEST(PoseReleaseTest, AFastBrakeIsHeldBeforeThePoseSentLast) {
 
 // While the guard does not know, a robot that is released goes nowhere.
 TEST(PoseReleaseTest, AToolThatStoodIsHeldWhereItStands) {
-  for (const PoseMode mode : {PoseMode::kAbsolute, PoseMode::kIncremental}) {
+  for (const bool incremental : {false, true}) {
     for (const RobotDelays& delays : allDelays()) {
-      PoseSession session(delays, mode);
+      PoseSession session(delays, incremental);
       session.rest(200);
       session.run(600, handAt);
       session.robot().stand(true);
@@ -376,8 +376,8 @@ TEST(PoseReleaseTest, AToolThatStoodIsHeldWhereItStands) {
 }
 
 TEST(PoseReleaseTest, WithoutAFreshPoseTheOneSentLastIsHeld) {
-  PoseFollower follower(
-      {PoseMode::kAbsolute, kMaxPoseSpeed, kMaxPoseTurnRate, milliseconds(20), milliseconds(30), 50.0});
+  PoseFollower follower({kMaxPoseSpeed, kMaxPoseTurnRate, milliseconds(20), milliseconds(30), 50.0},
+                        /*incremental=*/false);
   follower.begin(Isometry3d::Identity());
   follower.observe({Isometry3d::Identity(), milliseconds(10), milliseconds(10), at(0).steady});
   const double sent = follower.moveOn(follower.towards(placedAndTurned(0.4), milliseconds(10))).translation().x();

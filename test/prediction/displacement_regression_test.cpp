@@ -20,7 +20,7 @@ Regression::Velocities anyVelocities(Random& random, double speed) {
 }
 
 void learn(Regression& regression, const Regression::Velocities& velocities, const Eigen::Vector3d& moved) {
-  regression.learn({velocities, moved, kPeriod}, Regression::constantVelocity(kSecondsAhead));
+  regression.learn(velocities, moved, kPeriod, Regression::constantVelocity(kSecondsAhead));
 }
 
 TEST(DisplacementRegressionTest, IsConstantVelocityBeforeItHasLearned) {
@@ -60,7 +60,7 @@ TEST(DisplacementRegressionTest, LeansTowardsWhatIsExpectedWhileItKnowsLittle) {
   const auto weights = [](const Regression::Weights& expected) {
     Random random(6);
     Regression regression(kSecondsAhead, kPriorSpeed);
-    for (int i = 0; i < 2; ++i) regression.learn({anyVelocities(random, 0.3), random.direction(), kPeriod}, expected);
+    for (int i = 0; i < 2; ++i) regression.learn(anyVelocities(random, 0.3), random.direction(), kPeriod, expected);
     return regression.weights();
   };
   const Regression::Weights difference =

@@ -30,8 +30,14 @@ PredictedJoints predicted(const JointPredictor& predictor, Duration ahead) {
   return joints;
 }
 
+JointVariable sliding(double lower, double upper) {
+  JointVariable joint{"", lower, upper};
+  joint.turns = false;
+  return joint;
+}
+
 // A joint that turns, and one that slides.
-const std::vector<PredictableJoint> kBoth = {{}, {/*turns=*/false}};
+const std::vector<JointVariable> kBoth = {{}, sliding(-kUnlimited, kUnlimited)};
 
 std::vector<double> steady(double t) { return {0.3 - 0.8 * t, 0.1 + 0.02 * t}; }
 
@@ -69,7 +75,7 @@ TEST(JointPredictorTest, HoldStaysAndDoubtsIt) {
 
 TEST(JointPredictorTest, AJointStopsAtItsLimits) {
   for (const char* name : {"constant_velocity", "polynomial", "direct"}) {
-    JointPredictor predictor(optionsOf(name), {{true, false, -1.0, 1.0}, {false, false, 0.0, 0.2}});
+    JointPredictor predictor(optionsOf(name), {{"", -1.0, 1.0}, sliding(0.0, 0.2)});
     followJoints(
         predictor,
         [](double t) {
@@ -84,11 +90,11 @@ TEST(JointPredictorTest, AJointStopsAtItsLimits) {
 
 // A limit of the description that the joint does not keep.
 TEST(JointPredictorTest, AJointBeyondALimitGoesNoFartherButMayReturn) {
-  JointPredictor out(optionsOf("constant_velocity"), {{true, false, -1.0, 1.0}});
+  JointPredictor out(optionsOf("constant_velocity"), {{"", -1.0, 1.0}});
   followJoints(
       out, [](double t) { return std::vector<double>{1.2 + 0.4 * t}; }, 0.0, 0.5);
   EXPECT_EQ(predicted(out, milliseconds(500)).positions[0], 1.2 + 0.4 * 0.5);
-  JointPredictor back(optionsOf("constant_velocity"), {{true, false, -1.0, 1.0}});
+  JointPredictor back(optionsOf("constant_velocity"), {{"", -1.0, 1.0}});
   followJoints(
       back, [](double t) { return std::vector<double>{1.4 - 0.4 * t}; }, 0.0, 0.5);
   EXPECT_NEAR(predicted(back, milliseconds(500)).positions[0], 1.0, 1e-9);
@@ -97,7 +103,7 @@ TEST(JointPredictorTest, AJointBeyondALimitGoesNoFartherButMayReturn) {
 TEST(JointPredictorTest, AContinuousJointGoesOnWhereItsPositionsWrap) {
   const auto turning = [](double t) { return std::vector<double>{std::remainder(3.0 * t, 2.0 * M_PI)}; };
   for (const char* name : {"constant_velocity", "polynomial", "direct"}) {
-    JointPredictor predictor(optionsOf(name), {{true, /*continuous=*/true}});
+    JointPredictor predictor(optionsOf(name), {{"", -kUnlimited, kUnlimited, /*continuous=*/true}});
     followJoints(predictor, turning, 0.0, 0.3);
     for (int i = 31; i < 500; ++i) {
       observe(predictor, 0.01 * i, turning(0.01 * i));
@@ -108,7 +114,7 @@ TEST(JointPredictorTest, AContinuousJointGoesOnWhereItsPositionsWrap) {
 }
 
 TEST(JointPredictorTest, ATurnOfAJointWithLimitsIsNotAWrap) {
-  JointPredictor predictor(optionsOf("constant_velocity"), {{true, false, -4.0, 4.0}});
+  JointPredictor predictor(optionsOf("constant_velocity"), {{"", -4.0, 4.0}});
   observe(predictor, 0.0, {3.1});
   observe(predictor, 0.01, {3.1});
   observe(predictor, 0.02, {-3.1});

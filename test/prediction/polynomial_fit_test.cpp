@@ -24,7 +24,7 @@ Vector6d staircase(double t) {
 
 PolynomialFit<6> fitOf(const std::function<Vector6d(double)>& truth, int degree, double until, double period,
                        double forgetting_factor = 0.98) {
-  PolynomialFit<6> fit({degree, kWindow, forgetting_factor});
+  PolynomialFit<6> fit(degree, kWindow, forgetting_factor);
   for (int i = 0; i * period <= until; ++i) fit.add(at(i * period), truth(i * period));
   return fit;
 }
@@ -38,7 +38,7 @@ TEST(PolynomialFitTest, ReturnsPolynomialsOfEveryDegree) {
 }
 
 TEST(PolynomialFitTest, TakesStampsAsTheyCome) {
-  PolynomialFit<6> fit({3, kWindow, 0.95});
+  PolynomialFit<6> fit(3, kWindow, 0.95);
   double t = 0.0;
   for (int i = 0; i < 200; ++i) {
     t += i % 3 == 0 ? 0.002 : 0.017;
@@ -63,13 +63,13 @@ TEST(PolynomialFitTest, ForgetsWhatIsOlderThanTheWindow) {
 }
 
 TEST(PolynomialFitTest, WeighsSamplesByTheForgettingFactor) {
-  PolynomialFit<6> fit({0, kWindow, 0.5});
+  PolynomialFit<6> fit(0, kWindow, 0.5);
   for (int i = 0; i < 3; ++i) fit.add(at(0.01 * i), Vector6d::Constant(i));
   EXPECT_NEAR(fit.curve({}).at(at(0.0))[0], (0.25 * 0 + 0.5 * 1 + 1.0 * 2) / 1.75, 1e-12);
 }
 
 TEST(PolynomialFitTest, LowersTheDegreeUntilThereAreSamplesForIt) {
-  PolynomialFit<6> fit({3, kWindow, 1.0});
+  PolynomialFit<6> fit(3, kWindow, 1.0);
   fit.add(at(0.0), staircase(0.0));
   EXPECT_EQ(fit.curve({3, 3, 3, 3, 3, 3}).at(at(1.0)), staircase(0.0));
   fit.add(at(0.1), staircase(0.1));
@@ -92,7 +92,7 @@ TEST(PolynomialFitTest, CorrectsItsNewestSample) {
 // Hours at 1 kHz: neither errors of rounding nor the age of the clock add up, and nothing winds up while it stands
 // still.
 TEST(PolynomialFitTest, IsAsExactAfterTenMillionUpdatesAsAtFirst) {
-  PolynomialFit<6> fit({2, milliseconds(50), 0.98});
+  PolynomialFit<6> fit(2, milliseconds(50), 0.98);
   const auto truth = [](double t) -> Vector6d {
     return Vector6d::Constant(t < 5000.0 ? 1e3 : 1e3 + 0.01 * (t - 5000.0) * (t - 5000.0));
   };

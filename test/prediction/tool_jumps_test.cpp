@@ -26,7 +26,10 @@ class ToolJumpsTest : public testing::Test {
   }
 
   ToolJumps tool_{"drill", "world", {}};
-  ToolJumps arm_{"hand", "world", {{"elbow", /*turns=*/true, /*velocity=*/2.0}, {"slide", /*turns=*/false, 0.0}}};
+  ToolJumps arm_{"hand",
+                 "world",
+                 {{"elbow", -kUnlimited, kUnlimited, false, /*velocity=*/2.0},
+                  {"slide", -kUnlimited, kUnlimited, false, 0.0, /*turns=*/false}}};
 };
 
 TEST_F(ToolJumpsTest, AToolThatIsElsewhereAtTheNextPoseHasJumped) {
@@ -43,6 +46,30 @@ TEST_F(ToolJumpsTest, AJointThatIsElsewhereAtTheNextStateIsNamed) {
   EXPECT_EQ(turnTo(0.8, 0.99 + 2.6), "joint 'elbow' jumped: 130 rad/s");
   EXPECT_EQ(turnTo(0.808, 1.0 + 2.6), "");
   EXPECT_EQ(turnTo(0.816, 1.01 + 2.6, 0.3), "joint 'slide' jumped: 15 m/s");
+}
+
+// 0.157 m/s, in millimeters.
+TEST_F(ToolJumpsTest, AToolThatGoesOnAsFastIsToldOfWithItsSpeed) {
+  for (const double rate : {20.0, 100.0, 1000.0}) {
+    tool_.reset();
+    std::string told;
+    for (int i = 0; i < 0.2 * rate; ++i) told = moveTo(i / rate, 157.0 * i / rate);
+    EXPECT_EQ(told, "the tool 'drill' moves at 157 m/s against 'world', as a pose in millimeters does") << rate;
+    EXPECT_EQ(moveTo(0.2 + 1.0 / rate, 157.0 * (0.2 - 1.0 / rate)), "") << "it has stopped";
+    EXPECT_EQ(moveTo(0.2 + 2.0 / rate, 0.0).find("the tool 'drill' jumped against 'world': "), 0U);
+  }
+}
+
+TEST_F(ToolJumpsTest, TwoJumpsInARowAreNoMotion) {
+  moveTo(0.0, 0.0);
+  for (const double seconds : {0.1, 0.2})
+    EXPECT_EQ(moveTo(seconds, 50.0 * seconds).find("the tool 'drill' jumped"), 0U);
+}
+
+TEST_F(ToolJumpsTest, PlacesThatAlternateAreNoMotion) {
+  for (int ms = 0; ms < 200; ms += 10) {
+    EXPECT_EQ(moveTo(0.001 * ms, ms % 20 == 0 ? 0.0 : 1.0).find("the tool 'drill' moves"), std::string::npos) << ms;
+  }
 }
 
 TEST_F(ToolJumpsTest, AJumpThatComesInPartsIsFound) {

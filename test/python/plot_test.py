@@ -3,6 +3,7 @@
 import csv
 import importlib.util
 import os
+import re
 import struct
 import subprocess
 import sys
@@ -41,6 +42,13 @@ def contact(number):
 def run(*arguments, **environment):
     return subprocess.run([sys.executable, PLOT, *arguments], env={**os.environ, **environment}, stderr=subprocess.PIPE,
                           universal_newlines=True, check=False)
+
+
+class LevelsTest(unittest.TestCase):
+    def test_the_levels_have_the_colors_of_the_guard(self):
+        with open(os.path.join(os.path.dirname(PLOT), '../include/sweep_guard/common/warning_level.h')) as header:
+            styles = re.findall(r'{"(\w+)", {(\d+), (\d+), (\d+)}}', header.read())
+        self.assertEqual({name: '#' + ''.join(f'{int(part):02x}' for part in rgb) for name, *rgb in styles}, plot.LEVELS)
 
 
 class PlotTest(unittest.TestCase):

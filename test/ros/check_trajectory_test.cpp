@@ -112,6 +112,31 @@ TEST_F(CheckTrajectoryTest, WithoutNarrowPhaseASweepThatMayCollideIsNamedByItsBe
   EXPECT_NEAR(response.time_of_impact, 0.47, 0.05);
 }
 
+// As a planner hands it out: a joint that moves nothing of the tool, one that mimics, and a finger beyond its limit.
+TEST_F(CheckTrajectoryTest, TakesThePlanOfAWholeRobotAndSaysWhatItMadeOfIt) {
+  placeSquare("square", {0.15, 0.0, 0.85}, "world", /*half_side=*/0.02);
+  const auto taken = [](const CheckTrajectory::Request& request, bool collision, const std::string& message) {
+    const auto response = check(request);
+    EXPECT_TRUE(response.success) << response.message;
+    EXPECT_EQ(response.collision, collision);
+    EXPECT_EQ(response.clear, !collision);
+    EXPECT_EQ(response.message, message);
+  };
+  const std::string passed_over = "passed over, for they do not move the tool: pan";
+  taken(along({"pan", "elbow"}, {{0.0, 0.0}, {9.0, 0.3}}), false, passed_over);
+  taken(along({"shoulder", "pan"}, {{0.0, 0.0}, {1.0, 0.0}}), true, passed_over);
+  taken(along({"jaw", "other_jaw"}, {{0.04, -0.04}, {0.01, -0.01}}), false, "");
+  taken(along({"jaw", "pan"}, {{0.04003, 0.0}, {0.04, 0.0}}), false,
+        "joint 'jaw' is at 0.04003 in point 0, but its limits are 0 to 0.04: swept as it is; " + passed_over);
+}
+
+TEST_F(CheckTrajectoryTest, TakesNamesAsJointStatesHasThem) {
+  placeSquare("square", {0.15, 0.0, 0.85}, "world", /*half_side=*/0.02);
+  EXPECT_TRUE(check(along({"outer_shoulder", "elbow"}, {{0.0, 0.0}, {1.0, -1.0}})).collision);
+  EXPECT_TRUE(check(along({"shoulder", "elbow"}, {{0.0, 0.0}, {1.0, -1.0}})).collision);
+  EXPECT_TRUE(has(check(along({"outer_elbow"}, {{0.0}})).message, "no joint 'outer_elbow'"));
+}
+
 TEST_F(CheckTrajectoryTest, RefusesWhatItCannotTest) {
   placeSquare("square", {0.0, 0.0, 0.0});
   const CheckTrajectory::Request good = along({"shoulder", "elbow"}, {{0.0, 0.0}, {0.1, 0.1}});
@@ -126,13 +151,14 @@ TEST_F(CheckTrajectoryTest, RefusesWhatItCannotTest) {
   refused([](auto& request) { request.trajectory.points.clear(); }, "no points");
   refused([](auto& request) { request.trajectory.points.resize(1025, request.trajectory.points[0]); }, "1025 points");
   refused([](auto& request) { request.trajectory.joint_names[1] = "knee"; },
-          "no joint 'knee' moves the tool's links: those that do are shoulder, elbow, jaw");
+          "no joint 'knee': leave it out, or correct its name; the tool's links are moved by shoulder, elbow, jaw");
   refused([](auto& request) { request.trajectory.joint_names[1] = "shoulder"; }, "'shoulder' twice");
-  refused([](auto& request) { request.trajectory.joint_names[1] = "other_jaw"; }, "no joint 'other_jaw'");
+  refused([](auto& request) { request.trajectory.joint_names[1] = "other_jaw"; },
+          "joint 'other_jaw' is at 0.1 in point 1, but 'jaw', which it mimics and is not named, puts it at -0.04");
   refused([](auto& request) { request.trajectory.points[1].positions.pop_back(); }, "point 1 has 1 positions");
   refused([](auto& request) { request.trajectory.points[1].positions[0] = 3.5; },
-          "point 1, joint shoulder is beyond the joint's limits, -3 to 3");
-  refused([=](auto& request) { request.trajectory.points[1].positions[0] = nan; }, "point 1, joint shoulder");
+          "joint 'shoulder' is at 3.5 in point 1, but its limits are -3 to 3");
+  refused([=](auto& request) { request.trajectory.points[1].positions[0] = nan; }, "joint 'shoulder' is at nan");
   refused([=](auto& request) { request.tool_pose.pose.position.x = nan; }, "tool_pose");
   refused([](auto& request) { request.tool_pose.header.frame_id = "nowhere"; }, "nowhere");
   refused([](auto& request) { request.mesh_ids = {"ghost"}; }, "ghost");

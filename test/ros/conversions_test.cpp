@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string>
+
+#include "sweep_guard/common/error.h"
+
 namespace sweep_guard_ros {
 namespace {
 
@@ -51,6 +56,46 @@ TEST(ConversionsTest, TimesOfImpactAreFractionsOfTheMessagesInterval) {
   ASSERT_EQ(contacts.objects.size(), 2U);
   EXPECT_EQ(contacts.objects[0].impacts.at(0).time_of_impact, 0.5);    // at 3 s
   EXPECT_EQ(contacts.objects[1].impacts.at(0).time_of_impact, 0.875);  // at 4.5 s
+}
+
+geometry_msgs::Pose poseOf(const Eigen::Vector3d& position, const Eigen::Vector4d& xyzw) {
+  geometry_msgs::Pose pose;
+  pose.position.x = position.x();
+  pose.position.y = position.y();
+  pose.position.z = position.z();
+  pose.orientation.x = xyzw.x();
+  pose.orientation.y = xyzw.y();
+  pose.orientation.z = xyzw.z();
+  pose.orientation.w = xyzw.w();
+  return pose;
+}
+
+std::string refusalOf(const geometry_msgs::Pose& pose) {
+  try {
+    fromMsg(pose);
+  } catch (const sweep_guard_core::InvalidInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ConversionsTest, AQuaternionOfAnotherLengthIsRefusedWithItsValueAndLength) {
+  const std::string begin = "orientation is not a unit quaternion: the length of ";
+  const Eigen::Vector3d place(1.0, 2.0, 3.0);
+  EXPECT_EQ(refusalOf(poseOf(place, {0.7, 0.0, 0.0, 0.7})), "");
+  EXPECT_EQ(refusalOf(poseOf(place, {0.0, 0.0, 0.0, 1.0999})), "");
+  EXPECT_EQ(refusalOf(poseOf(place, {0.0, 0.0, 0.0, 0.0})), begin + "(0, 0, 0, 0) is 0");
+  EXPECT_EQ(refusalOf(poseOf(place, {0.0, 0.6, 0.0, 0.6})), begin + "(0, 0.6, 0, 0.6) is 0.848528");
+  EXPECT_EQ(refusalOf(poseOf(place, {0.0, 0.0, 1.25, 0.0})), begin + "(0, 0, 1.25, 0) is 1.25");
+  EXPECT_EQ(refusalOf(poseOf(place, {0.0, NAN, 0.0, 1.0})), begin + "(0, nan, 0, 1) is nan");
+}
+
+TEST(ConversionsTest, APositionThatIsNoneIsRefusedWithItsValue) {
+  const std::string begin = "position is NaN, infinite or beyond 1e7 m: ";
+  const Eigen::Vector4d upright(0.0, 0.0, 0.0, 1.0);
+  EXPECT_EQ(refusalOf(poseOf({1.0, NAN, 0.5}, upright)), begin + "(1, nan, 0.5)");
+  EXPECT_EQ(refusalOf(poseOf({1.0, 2.0, -INFINITY}, upright)), begin + "(1, 2, -inf)");
+  EXPECT_EQ(refusalOf(poseOf({2e7, 0.0, 0.0}, upright)), begin + "(2e+07, 0, 0)");
 }
 
 }  // namespace

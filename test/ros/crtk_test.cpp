@@ -1,4 +1,5 @@
-// launch/crtk.launch, with a stand-in for an arm of the dVRK. On the wall clock: silence has a limit.
+// launch/crtk.launch in a namespace, without an argument for that, with a stand-in for an arm of the dVRK. On the wall
+// clock: silence has a limit.
 #include "drop_in_fixture.h"
 #include "stand_ins.h"
 

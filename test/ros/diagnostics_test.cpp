@@ -1,11 +1,13 @@
 // /diagnostics of a running guard. Part of node_test.
 #include <sweep_guard/Interaction.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <cmath>
 #include <cstdlib>
 #include <set>
 #include <string>
 
+#include "connected_publisher.h"
 #include "node_fixture.h"
 #include "proximity_listener.h"
 #include "refusal.h"
@@ -15,6 +17,7 @@ namespace sweep_guard_ros {
 namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
+using sweep_guard::Warning;
 using sweep_guard_core::SweepStatistics;
 
 class DiagnosticsTest : public NodeTest {
@@ -32,6 +35,25 @@ DiagnosticStatus detectorOf(SweepStatistics& statistics) {
   diagnostic_updater::DiagnosticStatusWrapper status;
   reportDetector(statistics.take(), parameters, status);
   return status;
+}
+
+TEST(ToolStatusTest, SaysWhatEachLinkIsMadeOf) {
+  Parameters parameters;
+  parameters.tool_description = "5 convex pieces";
+  const auto reported = [&] {
+    diagnostic_updater::DiagnosticStatusWrapper status;
+    reportTool(parameters, status);
+    return DiagnosticStatus(status);
+  };
+  EXPECT_EQ(reported().message, "5 convex pieces");
+  parameters.link_shapes = {{"shaft", /*is_visual=*/false, 2}, {"jaw", /*is_visual=*/false, 1}};
+  EXPECT_EQ(reported().message, "5 convex pieces");
+  EXPECT_EQ(valueOf(reported(), "'shaft'"), "2 pieces from its collision geometry");
+  parameters.link_shapes[1].is_visual = true;
+  parameters.attached = {"payload"};
+  EXPECT_EQ(reported().message, "5 convex pieces, 1 links of visual geometry");
+  EXPECT_EQ(valueOf(reported(), "'jaw'"), "1 pieces from its visual geometry");
+  EXPECT_EQ(valueOf(reported(), "'payload'"), "attached");
 }
 
 // A failing detector is fast enough.
@@ -74,6 +96,18 @@ TEST_F(DiagnosticsTest, EachInputReportsTopicPublishersAndAge) {
   EXPECT_EQ(valueOf(workpieces, "'square'").find("revision 1, 2 triangles in 'world'"), 0U);
 }
 
+TEST_F(DiagnosticsTest, SayWhichShareOfThePosesRepeatsTheOneBefore) {
+  placeSquare("square", {0.0, 0.0, -1.0});
+  std::string share;
+  for (int i = 0; i < 10 && (share.empty() || share == "0"); ++i) {
+    restAt({0.0, 0.0, 0.5});
+    share = valueOf(probe().awaitStatus("tool pose", any), "repeated positions [%]");
+  }
+  ASSERT_FALSE(share.empty());
+  EXPECT_GT(std::stod(share), 0.0);
+  EXPECT_LE(std::stod(share), 100.0);
+}
+
 TEST_F(DiagnosticsTest, SayWhichWorkpieceHasCoordinatesThatAreRounded) {
   placeSquare("square", {0.0, 0.0, -1.0});
   probe().place(squareMovedTo("square", {0.0, 0.0, -1.0}, probe().time()));
@@ -81,6 +115,47 @@ TEST_F(DiagnosticsTest, SayWhichWorkpieceHasCoordinatesThatAreRounded) {
   EXPECT_FALSE(coarse(probe().awaitStatus("workpieces", any)));
   probe().place(squareMovedTo("square", {30e3, 30e3, -1.0}, probe().time()));
   EXPECT_TRUE(has(probe().awaitStatus("workpieces", coarse).message, "'square' is known to 1.4 mm only"));
+}
+
+TEST_F(DiagnosticsTest, SayHowLargeWorkpiecesAreAndHowFarTheToolIs) {
+  const auto doubts = [](const std::string& what) {
+    return [what](const DiagnosticStatus& status) {
+      return status.level != DiagnosticStatus::OK && has(status.message, what);
+    };
+  };
+  placeSquare("square", {0.0, 0.0, -1.0});
+  moveTo({0.0, 0.0, 0.5});
+  awaitValue("workpieces", "size of 'square'", "0.2 x 0.2 x 0 m, 1.5 m from the tool, nearest so far 1.5 m");
+  placeSquare("mesh in mm", {0.0, 0.0, -1.0}, "world", 100.0);
+  moveTo({0.0, 0.0, 0.5});
+  probe().awaitStatus("workpieces", doubts("'mesh in mm' is 200 m long: is its mesh in millimeters?"));
+  probe().remove("mesh in mm");
+  placeSquare("transform in mm", {0.0, 0.0, -299.75});
+  moveTo({0.0, 0.0, 0.5});
+  probe().awaitStatus("workpieces", doubts("the tool was never nearer to 'transform in mm' than 300 m"));
+}
+
+TEST_F(DiagnosticsTest, SayWhichTransformOfAWorkpieceIsRefused) {
+  placeSquare("square", {0.0, 0.0, -1.0}, "bench");
+  ConnectedPublisher<tf2_msgs::TFMessage> publisher("/tf");
+  for (const auto& [length, value] : {std::pair{0.5, "0.5) is 0.5"}, {0.0, "0) is 0"}, {1.3, "1.3) is 1.3"}}) {
+    tf2_msgs::TFMessage message;
+    geometry_msgs::TransformStamped& bench = message.transforms.emplace_back();
+    bench.header.frame_id = "world";
+    bench.header.stamp = probe().time();
+    bench.child_frame_id = "bench";
+    bench.transform.rotation.w = length;
+    probe().tick(0.01);
+    probe().publish(poseAt(kAway, probe().time()));  // from then on, the frame counts
+    (*publisher).publish(message);
+    probe().awaitWarning([&, refused = value](const Warning& warning) {
+      return hasReason(Warning::TF_FAIL)(warning) && has(warning.text, "transform to 'bench' from node '") &&
+             has(warning.text, refused);
+    });
+  }
+  probe().awaitStatus("workpieces", [](const DiagnosticStatus& status) {
+    return status.level == DiagnosticStatus::ERROR && has(status.message, "(0, 0, 0, 1.3) is 1.3");
+  });
 }
 
 TEST_F(DiagnosticsTest, APoseThatWasRefusedIsTheLastErrorOfItsInputAlone) {

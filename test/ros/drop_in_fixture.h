@@ -23,12 +23,12 @@
 
 namespace sweep_guard_ros {
 
-/// Publishes the newest of its messages at 100 Hz.
+/// Publishes the newest of its messages, by default at 100 Hz.
 template <typename Msg>
 class Stream {
  public:
-  explicit Stream(const std::string& topic)
-      : publisher_(node_.advertise<Msg>(topic, 10)), repeater_(std::chrono::milliseconds(10), [this] { publish(); }) {}
+  explicit Stream(const std::string& topic, std::chrono::milliseconds period = std::chrono::milliseconds(10))
+      : publisher_(node_.advertise<Msg>(topic, 10)), repeater_(period, [this] { publish(); }) {}
 
   void send(const Msg& message) {
     const std::lock_guard lock(mutex_);
@@ -77,7 +77,7 @@ inline bool isLimited(const geometry_msgs::Twist& twist) {
          std::abs(twist.linear.x - kDown.linear.x) < 1e-3;
 }
 
-/// A running motion guard between an operator and a stand-in, with a fake guard beside it.
+/// A running motion guard between an operator and a stand-in, with a fake guard beside it, in the namespace of the test.
 class DropInTest : public testing::Test {
  protected:
   DropInTest() : tf_static_(node_.advertise<tf2_msgs::TFMessage>("/tf_static", 1, /*latch=*/true)) { spinner_.start(); }
@@ -105,7 +105,7 @@ class DropInTest : public testing::Test {
 
   // Ends the motion guard as a crash would, and returns when it happened.
   static std::chrono::steady_clock::time_point killMotionGuard() {
-    const pid_t pid = pidOf("/motion_guard");
+    const pid_t pid = pidOf(ros::names::resolve("motion_guard"));
     EXPECT_GT(pid, 0);
     kill(pid, SIGKILL);
     return std::chrono::steady_clock::now();
@@ -114,7 +114,7 @@ class DropInTest : public testing::Test {
   ros::NodeHandle node_;
   ros::Publisher tf_static_;
   ros::AsyncSpinner spinner_{2};
-  FakeGuard guard_{"/sweep_guard"};
+  FakeGuard guard_{"sweep_guard"};
 };
 
 }  // namespace sweep_guard_ros

@@ -43,6 +43,22 @@ TEST_F(FrameTreeTest, EachUserHasItsOwn) {
   EXPECT_TRUE(tree_.isUsed("base"));
 }
 
+TEST_F(FrameTreeTest, TellsWhoUsesAFrame) {
+  tree_.use("workpieces", "world", {"part"});
+  tree_.use("tool", "world", {"tool"});
+  EXPECT_TRUE(tree_.isUsedBy("workpieces", "table"));
+  EXPECT_FALSE(tree_.isUsedBy("tool", "table"));
+  EXPECT_TRUE(tree_.isUsedBy("tool", "base"));
+  EXPECT_FALSE(tree_.isUsedBy("haptics", "base"));
+}
+
+TEST_F(FrameTreeTest, TellsWhatLiesBetweenFramesThatNobodyUses) {
+  const std::set<std::string> expected = {"table", "part", "base", "tool"};
+  EXPECT_EQ(tree_.between("part", "tool"), expected);
+  EXPECT_EQ(tree_.between("map", "base"), (std::set<std::string>{"world", "base"}));
+  EXPECT_EQ(tree_.between("world", "nowhere"), (std::set<std::string>{"map", "nowhere", "world"}));
+}
+
 TEST_F(FrameTreeTest, FollowsAFrameThatIsHungUpElsewhere) {
   tree_.use("workpieces", "world", {"part"});
   ASSERT_FALSE(tree_.isUsed("base"));

@@ -5,6 +5,8 @@
 #include <ros/ros.h>
 
 #include <atomic>
+#include <cmath>
+#include <string>
 #include <thread>
 
 #include "sweep_guard/ros/conversions.h"
@@ -127,6 +129,107 @@ TEST_F(FramesTest, TellsOfTransformsThatCountAndMove) {
   publish("camera", ros::Time::now(), 3.0);  // its callback is after that of the table
   ASSERT_TRUE(arrives("camera", 3.0));
   EXPECT_EQ(told, 1);
+}
+
+class RefusedTransformsTest : public StaticFramesTest {
+ protected:
+  RefusedTransformsTest() { frames_.use("tool", "world", {"tool"}); }
+
+  void send(const geometry_msgs::TransformStamped& transform, const ros::Publisher& publisher) {
+    tf2_msgs::TFMessage message;
+    message.transforms = {transform};
+    publisher.publish(message);
+  }
+  // Sends a transform with this quaternion, then a good one to another frame, and returns when both were received.
+  void turn(const std::string& child, const Eigen::Vector4d& xyzw) {
+    auto transform = transformTo(child, ros::Time::now(), 1.0);
+    transform.transform.rotation.x = xyzw.x();
+    transform.transform.rotation.y = xyzw.y();
+    transform.transform.rotation.z = xyzw.z();
+    transform.transform.rotation.w = xyzw.w();
+    send(transform, publisher_);
+    passTheQueue();
+  }
+  void passTheQueue() {
+    publish("other", ros::Time::now(), ++others_);
+    ASSERT_TRUE(arrives("other", others_));
+  }
+
+  std::string refusedBy(const std::string& why) const {
+    return "transform to 'tool' from node '" + ros::this_node::getName() + "' refused: " + why;
+  }
+
+  double others_ = 0.0;
+};
+
+// As typed by hand, and as filters leave them. A pose is taken with these, too.
+TEST_F(RefusedTransformsTest, AQuaternionOfAlmostUnitLengthIsOneOfUnitLength) {
+  for (const Eigen::Vector4d& xyzw :
+       {Eigen::Vector4d(0.7, 0.0, 0.0, 0.7), {0.0, 0.0, 0.0, 1.04}, {0.0, 0.0, 0.0, 0.98}, {0.0, 0.0, 0.1, 0.9}}) {
+    turn("tool", xyzw);
+    EXPECT_EQ(frames_.refusal(), "");
+    const Eigen::Isometry3d X = frames_.lookup("world", "tool", {});
+    EXPECT_TRUE(X.linear().isApprox(Eigen::Quaterniond(xyzw).normalized().toRotationMatrix(), 1e-9));
+  }
+}
+
+TEST_F(RefusedTransformsTest, AreToldWithFramePublisherValueAndLengthUntilAGoodOneComes) {
+  std::atomic<int> told = 0;
+  const auto handle = frames_.onRefusal([&] { ++told; });
+  turn("tool", {0.0, 0.0, 0.0, 0.0});
+  EXPECT_EQ(frames_.refusal(), refusedBy("orientation is not a unit quaternion: the length of (0, 0, 0, 0) is 0"));
+  turn("tool", {0.0, 0.6, 0.0, 0.6});
+  EXPECT_EQ(frames_.refusal(),
+            refusedBy("orientation is not a unit quaternion: the length of (0, 0.6, 0, 0.6) is 0.848528"));
+  EXPECT_EQ(frames_.refusalFor("tool"), frames_.refusal());
+  EXPECT_EQ(frames_.refusalFor("workpieces"), "");
+  EXPECT_EQ(told, 2);
+  try {
+    frames_.lookup("world", "tool", {});
+    FAIL() << "is known";
+  } catch (const FrameError& error) {
+    EXPECT_NE(std::string(error.what()).find(frames_.refusal()), std::string::npos) << error.what();
+  }
+  turn("tool", {0.0, 0.0, 0.0, 1.0});
+  EXPECT_EQ(frames_.refusal(), "");
+  EXPECT_EQ(told, 2);
+}
+
+TEST_F(RefusedTransformsTest, NumbersAndClocksAreToldToo) {
+  auto transform = transformTo("tool", ros::Time::now(), NAN);
+  send(transform, publisher_);
+  passTheQueue();
+  EXPECT_EQ(frames_.refusal(), refusedBy("position is NaN, infinite or beyond 1e7 m: (nan, 0, 0)"));
+  send(transformTo("tool", ros::Time::now() + ros::Duration(3600.0), 1.0), publisher_);
+  passTheQueue();
+  EXPECT_NE(frames_.refusal().find(" s in the future, more than 10 s"), std::string::npos) << frames_.refusal();
+  transform = transformTo("tool", ros::Time::now(), 1.0);
+  transform.header.frame_id = "/tool";
+  send(transform, publisher_);
+  passTheQueue();
+  EXPECT_EQ(frames_.refusal(), refusedBy("the frame is placed in itself"));
+}
+
+TEST_F(RefusedTransformsTest, OfAStaticFrameAreToldAsLong) {
+  auto transform = transformTo("tool", {}, 1.0);
+  transform.transform.rotation.w = 0.5;
+  send(transform, static_publisher_);
+  while (frames_.refusal().empty()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_NE(frames_.refusal().find("(0, 0, 0, 0.5) is 0.5"), std::string::npos) << frames_.refusal();
+  publishStatic("tool", 2.0);
+  ASSERT_TRUE(arrives("tool", 2.0));
+  EXPECT_EQ(frames_.refusal(), "");
+}
+
+TEST_F(RefusedTransformsTest, OfAFrameThatNobodyUsesAreNotTold) {
+  std::atomic<int> told = 0;
+  const auto handle = frames_.onRefusal([&] { ++told; });
+  turn("camera", {0.0, 0.0, 0.0, 0.5});
+  turn("imu", {0.0, 0.0, 0.0, 0.0});
+  EXPECT_EQ(frames_.refusal(), "");
+  EXPECT_EQ(told, 0);
+  frames_.use("workpieces", "world", {"camera"});
+  EXPECT_NE(frames_.refusalFor("workpieces").find("'camera'"), std::string::npos) << "it is used now";
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ class FutureStampTest : public testing::Test {
       heartbeat.end();
       return future;
     });
-    while (heartbeat.read().steps == 0 && answer.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
+    while (heartbeat.steps().value_or(0) == 0 && answer.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
     }
     ros::Time::setNow(after);
     return answer.get();

@@ -45,6 +45,7 @@ class GuardThreadTest : public ::testing::Test {
     pose.stamp = stamp_;
     pose.received = now().steady;
     pose.X_WT.translation().x() = 0.001 * ++pushed_;
+    pose.bodies = {{pose.X_WT}};
     if (frame_is_known) pose.X_WM["world"] = Eigen::Isometry3d::Identity();
     queue_.push({pose, monitor_.checkpoint()});
   }

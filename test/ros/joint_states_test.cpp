@@ -231,14 +231,73 @@ TEST_F(JointStatesTest, ASilentJointIsNamed) {
   holdUntil(kStraight, isClearNow);
 }
 
-TEST_F(JointStatesTest, BadPositionsAreRefused) {
+sensor_msgs::JointState message(ros::Time stamp, const std::vector<std::string>& names,
+                                const std::vector<double>& positions) {
+  sensor_msgs::JointState message;
+  message.header.stamp = stamp;
+  message.name = names;
+  message.position = positions;
+  return message;
+}
+
+TEST_F(JointStatesTest, BadPositionsAreRefusedByNodeAndJoint) {
+  placeSquare("square", {0.0, 0.0, -3.0}, 0.1);
+  const struct {
+    double stamp;  // [s], after now; NaN: none
+    std::vector<double> positions;
+    std::uint32_t reason;
+    std::string expected;
+  } cases[] = {
+      {0.0, {0.0, std::nan("")}, Warning::POSE_INVALID, "joint 'shoulder' is at nan"},
+      {0.0, {}, Warning::POSE_INVALID, "it names 2 joints, 'shoulder' among them, and has 0 positions"},
+      {std::nan(""), {0.0, 0.0}, Warning::POSE_INVALID, "joint 'shoulder': stamp is 0: stamp each message"},
+      {3.0, {0.0, 0.0}, Warning::FUTURE_STAMP, "joint 'shoulder': stamp lies in the future"},
+  };
+  for (const auto& one : cases) {
+    holdUntil(kStraight, isClearNow);
+    jointProbe().tick(0.01);
+    const ros::Time stamp = std::isnan(one.stamp) ? ros::Time() : jointProbe().time() + ros::Duration(one.stamp);
+    jointPublisher().publish(message(stamp, {"wheel", "shoulder"}, one.positions));
+    const Warning warning = jointProbe().awaitWarning(hasReason(one.reason));
+    const std::string expected = "joint_states of " + ros::this_node::getName() + ": " + one.expected;
+    EXPECT_NE(warning.text.find(expected), std::string::npos) << warning.text;
+  }
+  holdUntil(kStraight, isClearNow);
+}
+
+// Each of them would be refused if it named a joint of the tool.
+TEST_F(JointStatesTest, MessagesOfOtherJointsChangeNothing) {
   placeSquare("square", {0.0, 0.0, -3.0}, 0.1);
   holdUntil(kStraight, isClearNow);
-  jointProbe().tick(0.01);
-  publish({{"shoulder", std::nan("")}});
-  const Warning warning = jointProbe().awaitWarning(hasReason(Warning::POSE_INVALID));
-  EXPECT_NE(warning.text.find("joint 'shoulder' is at nan"), std::string::npos) << warning.text;
-  holdUntil(kStraight, isClearNow);
+  const size_t before = jointProbe().warnings().size();
+  for (int i = 0; i < 20; ++i) {
+    jointProbe().tick(0.01);
+    const ros::Time now = jointProbe().time();
+    jointPublisher().publish(message(now, {"wheel_left", "wheel_right"}, {}));
+    jointPublisher().publish(message(ros::Time(), {"gripper_finger"}, {0.02}));
+    jointPublisher().publish(message(now + ros::Duration(3.0), {"gripper_finger"}, {0.02}));
+    jointPublisher().publish(message(now, {"ankle", "knee", "hip"}, {std::nan(""), std::nan(""), std::nan("")}));
+    jointPublisher().publish(message(now, {"torso", "torso"}, {0.0, 1.0}));
+    jointPublisher().publish(message(ros::Time(), {}, {}));
+    publish(kStraight);
+  }
+  jointProbe().awaitContactsUpTo(jointProbe().time());
+  jointProbe().skipWarnings();
+  jointProbe().awaitWarning(isClearNow);
+  const std::vector<Warning> warnings = jointProbe().warnings();
+  for (size_t i = before; i < warnings.size(); ++i) EXPECT_TRUE(warnings[i].clear) << warnings[i].text;
+}
+
+TEST_F(JointStatesTest, TheTextListsWhichJointsAreMissingAndWhichCameInTheirPlace) {
+  publish({{"jaw", 0.04}});
+  publish({{"arm_arm_shoulder", 0.0}, {"arm_arm_elbow", 0.0}});
+  const std::string expected =
+      "joints 'shoulder', 'elbow' have not been published yet, but joint_states has arm_arm_elbow, arm_arm_shoulder";
+  jointProbe().awaitWarning(
+      [&](const Warning& warning) { return !warning.clear && warning.text.find(expected) != std::string::npos; });
+  jointProbe().awaitStatus("tool pose", [&](const GuardProbe::Status& status) {
+    return status.level == GuardProbe::Status::ERROR && status.message.find(expected) != std::string::npos;
+  });
 }
 
 // By 1.5 rad within 8 ms, past the square. A joint that is only fast is told of by the diagnostics.

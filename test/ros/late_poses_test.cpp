@@ -13,7 +13,7 @@ class LatePosesTest : public BaseAndArm {
     moveArm(now_);
     awaitFrame("arm");
   }
-  std::optional<LocatedPose> locate(const std::string& frame, ros::Time stamp) {
+  std::optional<sweep_guard_core::QueuedPose> locate(const std::string& frame, ros::Time stamp) {
     return late_.locate({{fromMsg(stamp), std::chrono::steady_clock::now()}, frame, Eigen::Isometry3d::Identity()});
   }
 
@@ -24,7 +24,7 @@ class LatePosesTest : public BaseAndArm {
 TEST_F(LatePosesTest, APoseWhoseTransformIsThereDoesNotWait) {
   const auto located = locate("arm", now_);
   ASSERT_TRUE(located);
-  EXPECT_EQ(located->X_WT.translation().z(), 3.0);
+  EXPECT_EQ(located->pose.X_WT.translation().z(), 3.0);
   EXPECT_EQ(late_.newest(), fromMsg(now_));
   EXPECT_TRUE(late_.empty());
 }
@@ -38,9 +38,9 @@ TEST_F(LatePosesTest, APoseThatWaitsHoldsUpThoseAfterIt) {
   EXPECT_EQ(late_.newest(), fromMsg(last));
   moveArm(next_);
   awaitArm(next_);
-  EXPECT_EQ(late_.locateNext().value().stamp, fromMsg(next_));
+  EXPECT_EQ(late_.locateNext().value().pose.stamp, fromMsg(next_));
   EXPECT_EQ(late_.frame(), "arm");
-  EXPECT_EQ(late_.locateNext().value().stamp, fromMsg(last));
+  EXPECT_EQ(late_.locateNext().value().pose.stamp, fromMsg(last));
   EXPECT_TRUE(late_.empty());
 }
 

@@ -11,9 +11,15 @@ using sweep_guard_core::ConvexShape;
 using sweep_guard_core::Tool;
 using visualization_msgs::Marker;
 
+Marker drawingOf(int index) {
+  Marker drawing = marker("tool", index, Marker::CYLINDER, "world", {});
+  drawing.color = color(0.4, 0.5, 0.9, 0.8);
+  return drawing;
+}
+
 std::vector<Marker> draw(const Tool& tool, int index, const Eigen::Isometry3d& X_WT = Eigen::Isometry3d::Identity()) {
   visualization_msgs::MarkerArray array;
-  addTool(array, {"tool", index, "world", sweep_guard_core::Time(), color(0.4, 0.5, 0.9, 0.8)}, {tool}, {X_WT});
+  addTool(array, drawingOf(index), {tool}, {X_WT});
   return array.markers;
 }
 
@@ -52,8 +58,7 @@ TEST(ToolDrawingTest, EachBodyIsWhereItIsUnderIdsOfItsOwn) {
   const Tool body({{"a", ConvexShape::box({0.1, 0.1, 0.1})}, {"b", ConvexShape::cylinder(0.01, 0.2)}});
   const Eigen::Isometry3d aside(Eigen::Translation3d(0.5, 0.0, 0.0));
   visualization_msgs::MarkerArray array;
-  addTool(array, {"tool", 1, "world", {}, color(0.4, 0.5, 0.9, 0.8)}, {body, body},
-          {Eigen::Isometry3d::Identity(), aside});
+  addTool(array, drawingOf(1), {body, body}, {Eigen::Isometry3d::Identity(), aside});
   ASSERT_EQ(array.markers.size(), 4U);
   for (size_t i = 0; i < array.markers.size(); ++i) {
     EXPECT_EQ(array.markers[i].id, static_cast<int>(4 + i));

@@ -129,16 +129,83 @@ TEST_F(MeshFileTest, RefusesWhatItCannotReadCompletely) {
   const std::string stl = asciiStl();
   EXPECT_TRUE(has(refused("cut.stl", stl.substr(0, stl.rfind("facet normal"))), "end is missing"));
   EXPECT_TRUE(has(refused("cut.stl", stl.substr(0, stl.rfind("vertex"))), "cannot be read"));
-  EXPECT_TRUE(has(refused("lie.stl", binaryStl(3)), "cannot be read"));
-  EXPECT_TRUE(has(refused("lie.stl", binaryStl(4000000000U)), "cannot be read"));
   EXPECT_TRUE(has(refused("lfs.obj", "version https://git-lfs.github.com/spec/v1\noid sha256:0\n"), "git lfs pull"));
   const std::string cut = refused("cut.dae", "<COLLADA version='1.4.1'><asset>");
   EXPECT_TRUE(has(cut, "XML") || has(cut, "Collada: File came out empty")) << cut;  // assimp 5.0 says the latter
   EXPECT_TRUE(has(refused("t.ply", "ply"), "STL, OBJ or DAE"));
 }
 
+std::string replacedAll(std::string text, const std::string& part, const std::string& by) {
+  for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + by.size())) {
+    text.replace(at, part.size(), by);
+  }
+  return text;
+}
+
+// What other programs show, although it is not as the format has it.
+TEST_F(MeshFileTest, ReadsAnStlAsProgramsWriteIt) {
+  const std::string binary = binaryStl(4);
+  const std::string solid = "solid" + binary.substr(5);
+  const std::string text = asciiStl();
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"a binary that begins with solid", solid},
+      {"zeros at its end", binary + std::string(92, '\0')},
+      {"zeros with room for a triangle", binary + std::string(50, '\0')},
+      {"one byte too many", binary + "\n"},
+      {"words at its end", binary + "written by a program that signs what it writes, in sixty bytes"},
+      {"both", solid + std::string(92, '\0')},
+      {"a color in its header", "COLOR=\xff\x80\x40\xff" + binary.substr(10)},
+      {"attributes", binary.substr(0, binary.size() - 2) + "\x21\x84"},
+      {"end solid", replacedAll(text, "endsolid", "end solid")},
+      {"end loop", replacedAll(text, "endloop", "end loop")},
+      {"END FACET", replacedAll(text, "endfacet", "END FACET")},
+      {"normals that are NaN", replacedAll(text, "normal 0 0 0", "normal NaN NaN NaN")},
+      {"other normals that are NaN", replacedAll(text, "normal 0 0 0", "normal -nan(ind) 1.#QNAN -1.#IND")},
+      {"no normals", replacedAll(text, "facet normal 0 0 0", "facet")},
+      {"lines of another system", replacedAll(text, "\n", "\r\n")},
+      {"no name", replacedAll(text, " tetrahedron", "")},
+      {"a name in umlauts", replacedAll(text, "tetrahedron", "\xC3\x84rmel facet")},
+      {"an end of file", text + "\x1a"},
+      {"a solid without triangles", text + "solid empty\nendsolid empty\n"},
+  };
+  for (const auto& [what, bytes] : cases) {
+    SCOPED_TRACE(what);
+    EXPECT_EQ(refusal([&] { expectUnitTetrahedron(readMesh(folder_.write("t.stl", bytes))); }), "");
+  }
+}
+
+TEST_F(MeshFileTest, RefusesAnStlInTheTermsOfTheFile) {
+  const std::string text = asciiStl();
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {binaryStl(3), "header says 3 triangles, the file has room for 4"},
+      {binaryStl(3) + "\n", "header says 3 triangles, the file has room for 4"},
+      {binaryStl(0), "header says 0 triangles, the file has room for 4"},
+      {binaryStl(5), "header says 5 triangles, the file has room for 4"},
+      {"solid" + binaryStl(5).substr(5), "header says 5 triangles, the file has room for 4"},
+      {binaryStl(4).substr(0, 283), "header says 4 triangles, the file has room for 3"},
+      {binaryStl(4000000000U), "header says 4000000000 triangles, the file has room for 4"},
+      {binaryStl(0).substr(0, 84), "no triangles"},
+      {std::string("\0\1", 2), "shorter than the 84 bytes"},
+      {tetrahedronObj(), "text that does not begin with 'solid' and 'facet'"},
+      {"<!DOCTYPE html><html><body>404</body></html>", "text that does not begin with 'solid' and 'facet'"},
+      {replacedAll(text, "vertex 1 0 0", "vertex 1 0"), "triangle 1 has 'vertex' in place of a number"},
+      {replacedAll(text, "vertex 0 0 1", "vertex 0 0,5 1"), "triangle 2 has '0,5' in place of a number"},
+      {replacedAll(text, "vertex 0 0 1", "vertex 0 0x1 1"), "triangle 2 has '0x1' in place of a number"},
+      {replacedAll(text, "endloop", "vertex 1 1 1\nendloop"), "triangle 1 has 'vertex' in place of 'endloop'"},
+      {replacedAll(text, "vertex 1 0 0", "vertex nan 0 0"), "a vertex is NaN"},
+      {text + "facet normal 0 0 0\n", "triangles follow the end"},
+      {text.substr(0, text.rfind("vertex")), "the file ends in triangle 4"},
+      {text.substr(0, text.rfind("endsolid")), "end is missing: no 'endsolid' after 4 triangles"},
+  };
+  for (const auto& [bytes, expected] : cases) {
+    const std::string message = refused("t.stl", bytes);
+    EXPECT_TRUE(has(message, expected)) << message;
+  }
+}
+
 // Some exporters write capitals or a byte order mark.
 TEST_F(MeshFileTest, ReadsCapitalsAndAByteOrderMark) {
+  expectUnitTetrahedron(readMesh(folder_.write("bom.stl", "\xEF\xBB\xBF" + asciiStl())));
   std::string capitals = tetrahedronObj();
   std::replace(capitals.begin(), capitals.end(), 'f', 'F');
   expectUnitTetrahedron(readMesh(folder_.write("f.obj", capitals)));
@@ -197,7 +264,7 @@ TEST_F(MeshFileTest, FollowsASymbolicLinkOnRequest) {
   const fs::path link = folder_.path() / "link.obj";
   fs::create_symlink(folder_.write("blob", tetrahedronObj()), link);
   EXPECT_TRUE(has(refusal([&] { readMesh(link); }), "cannot be opened"));
-  expectUnitTetrahedron(readMesh(link, SymbolicLinks::kFollow));
+  expectUnitTetrahedron(readMesh(link, /*follow_link=*/true));
 }
 
 TEST_F(MeshFileTest, RefusesHugeAndSpecialFiles) {
@@ -284,15 +351,97 @@ TEST_F(MeshFileTest, IsNotFoundOutsideOfItsPackage) {
   expectRefused("package://robot/link.obj", "leads out of");
   expectRefused("package://robot/linked/t.obj", "leads out of");
   expectRefused("file://" + (folder_.package() / "link.obj").string(), "neither in a package");
-  expectRefused("package://robot//etc/passwd", "leads out of");
+  expectRefused("package://robot//etc/passwd", "no such file");
+  expectRefused("package://robot/", "package://NAME/PATH");
   expectRefused("package://../outside/t.obj", "package://NAME/PATH");
   expectRefused("package://robot", "package://NAME/PATH");
   expectRefused("package://no_such_robot/t.obj", "no package 'no_such_robot'");
   expectRefused("package://robot/missing.obj", "no such file");
-  expectRefused("file://localhost/etc/passwd", "file:///PATH");
-  expectRefused("file:///etc/passwd", "neither in a package");
-  expectRefused("http://example.org/t.obj", "only package:// and file://");
-  expectRefused("/etc/passwd", "only package:// and file://");
+  expectRefused("file://other_host/etc/passwd", "file:///PATH");
+  expectRefused("file:etc/passwd", "file:///PATH");
+  for (const std::string start : {"file:///", "file:/", "file:////", "file://localhost/", "file:///%65tc/../"}) {
+    expectRefused(start + "etc/passwd", "neither in a package");
+  }
+}
+
+std::string locationOf(const std::string& uri) { return locateMesh(uri, {}).string(); }
+
+// rviz needs the escapes, older programs the blanks.
+TEST_F(MeshFileTest, IsFoundByItsNameWithAndWithoutPercentEscapes) {
+  for (const std::string name : {"upper arm", "100%", "\xC3\x84rmel", "a+b", "50%2", "x%zz"}) {
+    const std::string file = folder_.write("robot/my meshes/" + name + ".obj", tetrahedronObj()).string();
+    std::string escaped = replacedAll(replacedAll(name, "%", "%25"), " ", "%20");
+    escaped = "my%20meshes/" + replacedAll(escaped, "\xC3\x84", "%C3%84") + ".obj";
+    const std::string folder = folder_.package().string() + "/";
+    for (const std::string& path :
+         {"my meshes/" + name + ".obj", escaped, "/my meshes/" + name + ".obj", '/' + escaped}) {
+      SCOPED_TRACE(path);
+      EXPECT_EQ(locationOf("package://robot/" + path), file);
+      EXPECT_EQ(locationOf("file://" + folder + path), file);
+      EXPECT_EQ(locationOf("file://localhost" + folder + path), file);
+      EXPECT_EQ(locationOf("file:" + folder + path), file);
+      EXPECT_EQ(locationOf("file:///" + folder + path), file);
+    }
+  }
+}
+
+TEST_F(MeshFileTest, TheNameAsItIsGoesBeforeTheDecodedOne) {
+  const std::string decoded = folder_.write("robot/a b.obj", tetrahedronObj()).string();
+  EXPECT_EQ(locationOf("package://robot/a%20b.obj"), decoded);
+  const std::string literal = folder_.write("robot/a%20b.obj", tetrahedronObj()).string();
+  EXPECT_EQ(locationOf("package://robot/a%20b.obj"), literal);
+  EXPECT_EQ(locationOf("package://robot/a%2520b.obj"), literal);
+  EXPECT_EQ(locationOf("package://robot/a b.obj"), decoded);
+}
+
+// It is decoded once, and before it is tested where the file is.
+TEST_F(MeshFileTest, EscapesLeadNowhereElse) {
+  folder_.write("robot/in/t.obj", tetrahedronObj());
+  folder_.write("outside/t.obj", tetrahedronObj());
+  fs::create_symlink(folder_.path() / "outside/t.obj", folder_.package() / "a link.obj");
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"in%2Ft.obj", "'%2F' is not supported"},
+      {"in%2ft.obj", "'%2f' is not supported"},
+      {"in/t.obj%00", "'%00' is not supported"},
+      {"%2e%2e/outside/t.obj", "'%2e%2e' is not supported; write '..'"},
+      {"in/.%2E/in/t.obj", "'.%2E' is not supported; write '..'"},
+      {"%2e/in/t.obj", "'%2e' is not supported; write '.'"},
+      {"..%2foutside/t.obj", "'%2f' is not supported"},
+      {"a%20link.obj", "leads out of"},
+      {"in%252Ft.obj", "no such file"},
+  };
+  for (const auto& [path, expected] : cases) {
+    const std::string message = refusal([&path = path] { locateMesh("package://robot/" + path, {}); });
+    EXPECT_TRUE(has(message, expected)) << path << ": " << message;
+  }
+}
+
+TEST_F(MeshFileTest, IsRefusedWithWhatToWrite) {
+  folder_.write("robot/Meshes/UPPER_ARM.STL", "");
+  folder_.write("outside/UPPER_ARM.STL", "");
+  const std::string package = folder_.package().string();
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"meshes/upper arm.stl", "write package://NAME/meshes/upper arm.stl"},
+      {"./meshes/\xC3\x84rmel.stl", "write package://NAME/meshes/\xC3\x84rmel.stl"},
+      {"../t.obj", "write package://NAME/../t.obj"},
+      {"/opt/robot/a b.stl", "write file:///opt/robot/a b.stl"},
+      {"model://arm/meshes/t.dae", "write package://arm/meshes/t.dae, and add the folder to ROS_PACKAGE_PATH"},
+      {"http://example.org/t.obj", "write package://NAME/PATH"},
+      {"package://robot/meshes/upper_arm.stl", "there is " + package + "/Meshes/UPPER_ARM.STL"},
+      {"package://robot/Meshes/UPPER%5fARM.stl", "there is " + package + "/Meshes/UPPER_ARM.STL"},
+      {"file://" + package + "/meshes/upper_arm.stl", "there is " + package + "/Meshes/UPPER_ARM.STL"},
+      {"package://robot/\xC3\x84rmel.stl", "package://robot/\xC3\x84rmel.stl: no such file"},
+      {"package://robot/a\nb.stl", "package://robot/a?b.stl: no such file"},
+  };
+  for (const auto& [uri, expected] : cases) {
+    const std::string message = refusal([&uri = uri] { locateMesh(uri, {}); });
+    EXPECT_TRUE(has(message, expected)) << uri << ": " << message;
+  }
+  for (const std::string& uri : {std::string("package://robot/../outside/upper_arm.stl"),
+                                 "file://" + folder_.path().string() + "/outside/upper_arm.stl"}) {
+    const std::string message = refusal([&uri] { locateMesh(uri, {}); });
+    EXPECT_FALSE(has(message, "UPPER_ARM")) << uri << ": " << message;
+  }
 }
 
 }  // namespace

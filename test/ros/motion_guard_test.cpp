@@ -11,9 +11,13 @@
 
 #include <atomic>
 #include <filesystem>
+#include <memory>
+#include <set>
+#include <utility>
 
 #include "refusal.h"
 #include "ros/child_process.h"
+#include "ros/motion/absent_guard.h"
 #include "ros/motion/hold_publisher.h"
 #include "ros/motion_guard_fixture.h"
 
@@ -230,7 +234,125 @@ TEST_F(MotionGuardNodeTest, SendsFourZerosAfterTheCommandsHaveStopped) {
   EXPECT_EQ(next, twist(0.2));
 }
 
+// Calls for each 20th command of the world: at 5 Hz.
+std::function<void(const ros::Time&)> slowly(std::function<void(const ros::Time&)> command) {
+  return [command = std::move(command), step = 0](const ros::Time& now) mutable {
+    if (step++ % 20 == 0) command(now);
+  };
+}
+
+/// The node whose command_timeout is longer than the period of its commands.
+struct SlowNode {
+  explicit SlowNode(ros::NodeHandle& node)
+      : publisher(node.advertise<TwistStamped>("/slow/command", 10)), guarded(node, "/slow/guarded_command") {}
+
+  // Each is counted.
+  std::function<void(const ros::Time&)> commands(const Twist& twist) const {
+    return slowly([out = publisher, counted = count, twist](const ros::Time& now) {
+      TwistStamped stamped;
+      stamped.header.frame_id = "world";
+      stamped.header.stamp = now;
+      stamped.twist = twist;
+      out.publish(stamped);
+      ++*counted;
+    });
+  }
+
+  ros::Publisher publisher;
+  Listener<TwistStamped> guarded;
+  std::shared_ptr<std::atomic<int>> count = std::make_shared<std::atomic<int>>(0);
+};
+
+TEST_F(MotionGuardNodeTest, SlowCommandsAreRepeatedUntilTheNextOne) {
+  SlowNode node(node_);
+  for (const Twist& each : {twist(0.1), twist(-0.1, 0.05), twist(0.0, 0.0, 0.3)}) {
+    world_.change([&](auto& state) { state.command = node.commands(each); });
+    node.guarded.await([&](const TwistStamped& sent) { return sent.twist == each; }, "free motion");
+    const int before = *node.count;
+    std::set<ros::Time> stamps;
+    for (int i = 0; i < 12; ++i) {
+      const TwistStamped sent = node.guarded.await([](const TwistStamped&) { return true; }, "the next one");
+      EXPECT_EQ(sent.twist, each);
+      stamps.insert(sent.header.stamp);
+    }
+    EXPECT_LE(2 * (*node.count - before), 12);
+    EXPECT_EQ(stamps.size(), 12U) << "what follows looks at the stamps";
+  }
+}
+
+TEST_F(MotionGuardNodeTest, ARepeatedCommandIsLimitedAnew) {
+  SlowNode node(node_);
+  for (const double speed : {0.1, 0.15, 0.2}) {
+    const Twist fast = twist(-speed, 0.05);
+    world_.change([&](auto& state) { state.command = node.commands(fast); });
+    node.guarded.await([&](const TwistStamped& sent) { return sent.twist == fast; }, "free motion");
+    world_.change([](auto& state) {
+      state.command = nullptr;
+      state.wall = 0.795;
+    });
+    node.guarded.await(
+        [](const TwistStamped& sent) { return sent.twist.linear.x > -0.08 && sent.twist.linear.y > 0.04; },
+        "a slower one, without a new command");
+    node.guarded.await([](const TwistStamped& sent) { return isZero(sent.twist); }, "zero after command_timeout");
+    world_.change([](auto& state) { state.wall = 0.0; });
+  }
+}
+
+TEST_F(MotionGuardNodeTest, SaysThatCommandsComeMoreRarelyThanTheyAreInForce) {
+  Listener<diagnostic_msgs::DiagnosticArray> diagnostics(node_, "/diagnostics");
+  world_.change(
+      [&](auto& state) { state.command = slowly([this](const ros::Time& /*now*/) { twist_.publish(twist(0.1)); }); });
+  const MotionStatus status =
+      awaitStatus([](const MotionStatus& next) { return has(next.text, "commands come every 0.2"); }, "the period");
+  EXPECT_TRUE(has(status.text, "apart, but command_timeout is 0.1 s")) << status.text;
+  EXPECT_EQ(status.cause, "the newest command is too old");
+  diagnostics.await(
+      [](const diagnostic_msgs::DiagnosticArray& next) {
+        return std::any_of(next.status.begin(), next.status.end(), [](const auto& each) {
+          return each.name == "twist/motion_guard: command" && each.level == diagnostic_msgs::DiagnosticStatus::WARN &&
+                 has(each.message, "commands come every 0.2");
+        });
+      },
+      "a warning with the period");
+}
+
+TEST(AbsentGuardTest, NamesTheTopicAndTheArgumentToGive) {
+  EXPECT_EQ(
+      absentGuardText("/robot1/sweep_guard"),
+      "nobody publishes /robot1/sweep_guard/warning: start the guard, or give guard:=/sweep_guard if it is at the "
+      "root");
+  EXPECT_EQ(absentGuardText("/a/b/left"),
+            "nobody publishes /a/b/left/warning: start the guard, or give guard:=/left if it is at the root");
+  EXPECT_EQ(
+      absentGuardText("/sweep_guard"),
+      "nobody publishes /sweep_guard/warning: start the guard, or give guard:=/NAMESPACE/sweep_guard if it is in a "
+      "namespace");
+  EXPECT_EQ(
+      absentWarningText("/robot1/sweep_guard/warning"),
+      "nobody publishes /robot1/sweep_guard/warning: start the guard, or give warning:=/sweep_guard/warning if it "
+      "is at the root");
+}
+
+TEST_F(MotionGuardNodeTest, SaysThatNoGuardIsInItsNamespaceAndWhichArgumentToGive) {
+  const ros::Publisher commands = node_.advertise<Twist>("/lonely/command", 10);
+  Listener<MotionStatus> statuses(node_, "/lonely/motion_guard/status");
+  Listener<Twist> guarded(node_, "/lonely/guarded_command");
+  Listener<diagnostic_msgs::DiagnosticArray> diagnostics(node_, "/diagnostics");
+  command(twist(0.1), commands);
+  EXPECT_TRUE(isZero(guarded.await([](const Twist&) { return true; }, "zero")));
+  const std::string text = absentGuardText("/lonely/sweep_guard");
+  statuses.await([&](const MotionStatus& next) { return next.text == "stopped: " + text; }, text);
+  diagnostics.await(
+      [&](const diagnostic_msgs::DiagnosticArray& next) {
+        return std::any_of(next.status.begin(), next.status.end(), [&](const auto& each) {
+          return each.name == "lonely/motion_guard: guard" && each.message == text;
+        });
+      },
+      text);
+}
+
 TEST_F(MotionGuardNodeTest, ACommandThatIsTooOldIsZero) {
+  Listener<MotionStatus> statuses(node_, "/stamped/motion_guard/status");
   world_.change([=](auto& state) {
     state.command = [=](const ros::Time& now) {
       TwistStamped old;
@@ -241,6 +363,8 @@ TEST_F(MotionGuardNodeTest, ACommandThatIsTooOldIsZero) {
     };
   });
   guarded_stamped_.await([](const TwistStamped& sent) { return isZero(sent.twist); }, "zero");
+  statuses.await([](const MotionStatus& next) { return has(next.text, "the stamp of the newest command is 0.5"); },
+                 "how old it is");
 }
 
 TEST_F(MotionGuardNodeTest, EscapesSlowlyAndOnlyAway) {

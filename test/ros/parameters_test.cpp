@@ -146,7 +146,7 @@ TEST_F(ParametersTest, MakeAToolOfARobot) {
   node_.setParam("tool/joints/opening", 1);
   EXPECT_EQ(
       refusal(node_),
-      "no tool from the parameter 'robot_description': tool/joints/opening is beyond the joint's limits, 0 to 0.5");
+      "no tool from the parameter 'robot_description': tool/joints/opening is 1, beyond the joint's limits, 0 to 0.5");
 }
 
 // A command line has no lists.
@@ -301,6 +301,18 @@ TEST_F(ParametersTest, JointsOfACylinderDoNotMove) {
   EXPECT_TRUE(has(refusal(node_), "tool/type is cylinder: set it to urdf"));
 }
 
+TEST_F(ParametersTest, JointsHaveOtherNamesInMessagesIfTheyAreGiven) {
+  ros::param::set("/robot_description", kGripper);
+  node_.setParam("tool/type", "urdf");
+  node_.setParam("tool/joint_states", true);
+  node_.setParam("tool/joint_names/outer_opening", "opening");
+  EXPECT_EQ(loadParameters(node_).joint_names, (std::map<std::string, std::string>{{"outer_opening", "opening"}}));
+  node_.setParam("tool/joint_names/opened", "opening");
+  EXPECT_TRUE(has(refusal(node_), "tool/joint_names: 'opened' and 'outer_opening' name one joint"));
+  node_.setParam("tool/joint_names/opened", "closing");
+  EXPECT_TRUE(has(refusal(node_), "tool/joint_names: no joint 'closing' moves the tool's links"));
+}
+
 TEST_F(ParametersTest, TheSlowestJointDecidesHowOldAPoseMayBe) {
   ros::param::set("/robot_description", kGripper);
   node_.setParam("tool/type", "urdf");
@@ -316,6 +328,24 @@ TEST_F(ParametersTest, TheSlowestJointDecidesHowOldAPoseMayBe) {
   node_.setParam("tool/joint_timeouts/opening", 0.3);
   node_.setParam("tool/joint_timeouts/closing", 0.3);
   EXPECT_TRUE(has(refusal(node_), "no joint 'closing' moves the tool's links"));
+}
+
+TEST_F(ParametersTest, TheNameOfANodeIsResolvedInTheNamespaceOfTheNodeThatReadsIt) {
+  const auto read = [](const std::string& reader, const std::string& set) {
+    const ros::NodeHandle node("/guarded" + reader);
+    if (!set.empty()) node.setParam("guard", set);
+    return ParameterReader(node).node("guard", "sweep_guard");
+  };
+  EXPECT_EQ(read("/motion_guard", ""), "/guarded/sweep_guard");
+  EXPECT_EQ(read("/arm/motion_guard", ""), "/guarded/arm/sweep_guard");
+  EXPECT_EQ(read("/motion_guard", "left/guard"), "/guarded/left/guard");
+  EXPECT_EQ(read("/motion_guard", "/sweep_guard"), "/sweep_guard");
+  try {
+    read("/motion_guard", "a guard");
+    FAIL();
+  } catch (const sweep_guard_core::InvalidInput& error) {
+    EXPECT_TRUE(has(error.what(), "parameter guard has no name of a node")) << error.what();
+  }
 }
 
 // doc/interface.md and config/sweep_guard.yaml are generated from the descriptions.
@@ -443,6 +473,10 @@ TEST_F(ParametersTest, AreRefusedByNameValueAndRange) {
   refused("tool/joints", no_ros_name, "tool/joints/finger-1");
   refused("tool/joint_states", "joint_states", "true or false");
   refused("tool/joint_timeouts", 0.5, "a group of numbers");
+  refused("tool/joint_names", "opening", "a group of texts");
+  refused("tool/joint_names/outer", 1, "a text");
+  refused("tool/joint_names/outer", "", "not empty");
+  refused("tool/geometry", "mesh", "collision, visual, either");
   refused("tool/radius", 0.0, "1e-06 to 100");
   refused("tool/radius", -0.01, "-0.01");
   refused("tool/radius", NAN, "1e-06 to 100");
@@ -531,14 +565,17 @@ TEST_F(ParametersTest, HaveDecimalPointsInEveryLocale) {
   EXPECT_TRUE(has(output, "/sweep_guard/tool/radius is -0.5"));
 }
 
-// urdfdom and rospack would add lines.
+// urdfdom and rospack would add lines. log4cxx would show question marks in place of an umlaut.
 TEST_F(ParametersTest, StopTheNodeWithOneLineForARobotThatMakesNoTool) {
   const auto robot = [](const std::string& shape) {
     return "<robot name='r'><link name='a'><collision><geometry>" + shape + "</geometry></collision></link></robot>";
   };
-  for (const auto& [shape, expected] : {std::pair{"<capsule/>", "capsule"},
-                                        {"<mesh filename='package://nowhere/a.stl'/>", "package 'nowhere'"},
-                                        {"<sphere radius='-1'/>", "link 'a': its sphere's radius is -1"}}) {
+  for (const auto& [shape, expected] :
+       {std::pair{"<capsule/>", "capsule"},
+        {"<mesh filename='package://nowhere/a.stl'/>", "package 'nowhere'"},
+        {"<mesh filename='package://nowhere/\xC3\x84rmel.stl'/>", "package://nowhere/\xC3\x84rmel.stl: no package"},
+        {"<mesh filename='./100%.stl'/>", "./100%.stl: only package:// and file://"},
+        {"<sphere radius='-1'/>", "link 'a': its sphere's radius is -1"}}) {
     ros::param::set("/robot_description", robot(shape));
     const auto [output, status] = runNode("_tool/type:=urdf");
     EXPECT_EQ(status, 2);

@@ -116,5 +116,105 @@ TEST_F(StaticBaseTest, APoseThatWaitedIsWhereThingsWereWhenItCame) {
   EXPECT_EQ(placedUpTo(second), expected);
 }
 
+// The tool is the arm on its base, and its pose comes from tf.
+class RestingToolTest : public BaseAndArm {
+ protected:
+  static Parameters fromTf() {
+    Parameters parameters = patient();
+    parameters.tool_source = ToolSource::kTf;
+    parameters.tool_frame = "arm";
+    return parameters;
+  }
+  RestingToolTest() {
+    frames_.start(supervisor_);
+    input_.start(supervisor_);
+  }
+
+  void restArm(double z) { static_transforms_.publish(transform("base", "arm", ros::Time(), z)); }
+  void moveBase(ros::Time stamp, double z) {
+    transforms_.publish(transform(parameters_.fixed_frame, "base", stamp, z));
+  }
+  // Returns the poses that are queued until so many are.
+  std::vector<sweep_guard_core::PoseWithFrames> take(size_t count) {
+    std::vector<sweep_guard_core::PoseWithFrames> taken;
+    sweep_guard_core::WorkQueue::Work work;
+    while (taken.size() < count) {
+      input_.addRestingPose();
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      if (!queue_.hasPoses()) continue;
+      queue_.take(work);
+      for (const sweep_guard_core::QueuedPose& queued : work.poses) taken.push_back(queued.pose);
+    }
+    return taken;
+  }
+  std::string text() const {
+    sweep_guard_core::Warning warning;
+    monitor_.warning(now(), warning);
+    return warning.text;
+  }
+
+  const Parameters from_tf_ = fromTf();
+  const LiveParameters live_from_tf_{from_tf_};
+  sweep_guard_core::WarningMonitor monitor_{parameters_.limits};
+  const sweep_guard_core::WorkpieceStore workpieces_;
+  sweep_guard_core::WorkQueue queue_;
+  sweep_guard_core::FrameMotionStore frame_motions_;
+  PoseInput input_{node_, live_from_tf_, {frames_, workpieces_, monitor_, queue_, frame_motions_}};
+};
+
+TEST_F(RestingToolTest, IsWhereItIsNowAtTheLeastRate) {
+  placeBase(1.0);
+  restArm(0.5);
+  awaitFrame("arm");
+  const auto begin = std::chrono::steady_clock::now();
+  const auto poses = take(4);
+  const auto took = std::chrono::steady_clock::now() - begin;
+  EXPECT_GE(took, 3 * (from_tf_.guard.cycle - std::chrono::milliseconds(1)));
+  for (const auto& pose : poses) {
+    EXPECT_EQ(pose.X_WT.translation().z(), 1.5);
+    EXPECT_GE(pose.stamp, fromMsg(now_));
+  }
+  EXPECT_LT(poses[0].stamp, poses[3].stamp);
+  EXPECT_EQ(text().find("stamp"), std::string::npos) << text();
+}
+
+TEST_F(RestingToolTest, MovesWithTheFirstTransformsThatMoveWhateverTheirDelay) {
+  placeBase(1.0);
+  restArm(0.5);
+  awaitFrame("arm");
+  const sweep_guard_core::Time rested = take(1).back().stamp;
+  const std::uint64_t faults = monitor_.checkpoint().faults;
+  const ros::Time stamp = toMsg(rested);
+  for (const double late : {0.06, 0.04, 0.02}) moveBase(stamp - ros::Duration(late), 1.0);
+  moveBase(stamp + ros::Duration(0.04), 3.0);
+  std::vector<sweep_guard_core::PoseWithFrames> poses;
+  while (poses.empty() || poses.back().X_WT.translation().z() < 3.5) poses = take(1);
+  EXPECT_EQ(poses.back().stamp, rested + std::chrono::milliseconds(40));
+  EXPECT_EQ(monitor_.checkpoint().faults, faults) << text();
+}
+
+TEST_F(RestingToolTest, ATransformThatIsRefusedIsInTheTextAndTheRecord) {
+  placeBase(1.0);
+  for (const double length : {0.0, 0.85, 1.2}) {
+    auto arm = transform("base", "arm", ros::Time(), 0.5);
+    arm.transforms[0].transform.rotation.w = length;
+    const std::uint64_t faults = monitor_.checkpoint().faults;
+    static_transforms_.publish(arm);
+    while (monitor_.checkpoint().faults == faults) std::this_thread::yield();
+    EXPECT_NE(text().find("transform to 'arm' from node '"), std::string::npos) << text();
+    EXPECT_NE(text().find("orientation is not a unit quaternion"), std::string::npos) << text();
+    EXPECT_NE(text().find(input_.record().summary().last_error), std::string::npos) << text();
+  }
+  EXPECT_EQ(input_.record().summary().refused, 3U);
+}
+
+TEST_F(RestingToolTest, TransformsThatMoveWithoutAStampAreRefusedInTheirWords) {
+  moveBase(ros::Time(), 1.0);
+  restArm(0.5);
+  awaitFrame("arm");
+  input_.addRestingPose();
+  EXPECT_NE(text().find("the transforms to 'arm' have the stamp 0: stamp each"), std::string::npos) << text();
+}
+
 }  // namespace
 }  // namespace sweep_guard_ros

@@ -100,6 +100,7 @@ class ServicesTest : public ::testing::Test {
     pose.stamp = now().stamp;
     pose.received = now().steady;
     pose.X_WT.translation().z() = height;
+    pose.bodies = {{pose.X_WT}};
     pose.X_WM["world"] = Eigen::Isometry3d::Identity();
     queue_.push({pose, monitor_.checkpoint()});
   }
@@ -169,11 +170,12 @@ class ServicesTest : public ::testing::Test {
   Frames frames_{ros::NodeHandle(), parameters_.initial().max_message_size, [](const auto&, const auto&) {}};
   CrossCheckThread cross_check_{parameters_, monitor_};
   GuardThread guard_thread_{node_, dependenciesWith(parameters_)};
-  PathTests path_tests_{{parameters_, frames_, workpieces_, monitor_, /*frame_motions=*/nullptr,
-                         [this](const auto& /*name*/, const auto& /*options*/) {
-                           return std::make_unique<sweep_guard_core::FakeDetector>(path_detector_record_);
-                         }}};
-  CheckSweepService check_sweep_{node_, service_threads_, path_tests_};
+  PathTests path_tests_{{parameters_, frames_, workpieces_, monitor_},
+                        /*frame_motions=*/nullptr,
+                        [this](const auto& /*name*/, const auto& /*options*/) {
+                          return std::make_unique<sweep_guard_core::FakeDetector>(path_detector_record_);
+                        }};
+  PathService check_sweep_{node_, "check_sweep", service_threads_, path_tests_, sweep_guard_ros::checkSweep};
   Controls controls_{
       node_,
       parameters_,

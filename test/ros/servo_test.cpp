@@ -1,4 +1,5 @@
-// launch/servo.launch, with a stand-in for MoveIt Servo. On the wall clock: silence has a limit.
+// launch/servo.launch in a namespace, without an argument for that, with a stand-in for MoveIt Servo. On the wall clock:
+// silence has a limit.
 #include "drop_in_fixture.h"
 #include "stand_ins.h"
 

@@ -16,13 +16,15 @@ class StallTimerTest : public testing::Test {
 
   void check(Activity activity, Duration used, Duration since_last = 10ms, bool starving = false) {
     processor_time_ += used;
-    timer_.check({steps_, working_}, {processor_time_, activity}, since_last, starving);
+    timer_.check(steps(), {processor_time_, activity}, since_last, starving);
   }
   // @param used  processor time in each 10 ms
   Duration stalledAfter(Duration time, Activity activity, Duration used) {
     for (Duration passed{}; passed < time; passed += 10ms) check(activity, used);
     return timer_.stalled();
   }
+
+  std::optional<std::uint64_t> steps() const { return working_ ? std::optional(steps_) : std::nullopt; }
 
   std::uint64_t steps_ = 1;
   bool working_ = true;
@@ -81,7 +83,7 @@ TEST_F(StallTimerTest, CountsNothingWhileItMayBeBlockedByAThreadThatStarves) {
 
 TEST_F(StallTimerTest, AThreadWithWorkStarvesIfItIsRunnableAndDoesNotRun) {
   const auto starves = [&](Activity activity, Duration used) {
-    return timer_.starves({steps_, working_}, {processor_time_ + used, activity});
+    return timer_.starves(steps(), {processor_time_ + used, activity});
   };
   EXPECT_TRUE(starves(Activity::kRunnable, 0ms));
   EXPECT_FALSE(starves(Activity::kRunnable, 1ms));

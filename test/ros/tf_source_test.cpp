@@ -1,6 +1,9 @@
 // With the tool pose from tf, every received transform is swept like a pose on the topic.
 #include <gtest/gtest.h>
+#include <tf2_eigen/tf2_eigen.h>
+#include <tf2_msgs/TFMessage.h>
 
+#include "connected_publisher.h"
 #include "guard_probe.h"
 
 namespace sweep_guard_ros {
@@ -13,8 +16,54 @@ Eigen::Isometry3d pointingDownAt(double z) {
   return Eigen::Translation3d(0.0, 0.0, z) * Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX());
 }
 
+GuardProbe& tfProbe() {
+  static GuardProbe probe(/*drives_clock=*/true, PoseSource::kTf);
+  return probe;
+}
+
+geometry_msgs::TransformStamped transformTo(const std::string& child, const std::string& parent, ros::Time stamp,
+                                            const Eigen::Isometry3d& X) {
+  geometry_msgs::TransformStamped transform = tf2::eigenToTransform(X);
+  transform.header.frame_id = parent;
+  transform.header.stamp = stamp;
+  transform.child_frame_id = child;
+  return transform;
+}
+
+// The base rests, and the drill on it. Then a driver moves the base.
+TEST(TfSourceTest, AToolThatNothingMovesIsAtRestUntilSomethingDoes) {
+  GuardProbe& probe = tfProbe();
+  ConnectedPublisher<tf2_msgs::TFMessage> mount("/tf_static", /*latch=*/true);
+  tf2_msgs::TFMessage at_rest;
+  at_rest.transforms = {transformTo("base", "world", {}, Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.2))),
+                        transformTo("drill", "base", {}, pointingDownAt(0.3))};
+  (*mount).publish(at_rest);
+  probe.place(squareAt("square", {0.0, 0.0, 0.0}, probe.time()));
+  Warning warning;
+  for (int i = 0; i < 400 && !warning.clear; ++i) {
+    probe.tick(0.001);
+    warning = probe.awaitWarning([](const Warning&) { return true; });
+  }
+  EXPECT_TRUE(warning.clear) << warning.text;
+
+  ConnectedPublisher<tf2_msgs::TFMessage> driver("/tf");
+  probe.forgetContacts();
+  for (int i = 1; i <= 20; ++i) {
+    probe.tick(0.01);
+    tf2_msgs::TFMessage moved;
+    const Eigen::Isometry3d X(Eigen::Translation3d(0.0, 0.0, 0.2 - 0.03 * i));
+    moved.transforms = {transformTo("base", "world", probe.time(), X)};
+    (*driver).publish(moved);
+  }
+  const std::vector<Contacts> contacts = probe.awaitContactsUpTo(probe.time());
+  EXPECT_TRUE(endToEnd(contacts));
+  probe.awaitWarning([](const Warning& next) { return next.contact; });
+}
+
 TEST(TfSourceTest, SweepsFromTransformToTransform) {
-  GuardProbe probe(/*drives_clock=*/true, PoseSource::kTf);
+  GuardProbe& probe = tfProbe();
+  probe.reset();
+  probe.forgetContacts();
   probe.place(squareAt("square", {0.0, 0.0, 0.0}, probe.time()));
 
   probe.tick(0.01);

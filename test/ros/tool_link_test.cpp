@@ -36,6 +36,8 @@ TEST_P(ToolLinkTest, IsNamedBeforeAndInContact) {
     if (warnings[i].level < Warning::CONSIDERED) continue;
     levels.insert(warnings[i].level);
     EXPECT_EQ(warnings[i].tool_link, GetParam().name) << warnings[i].text;
+    if (warnings[i].level != Warning::CONTACT) continue;
+    EXPECT_NE(warnings[i].text.find(", by link '" + GetParam().name + "'"), std::string::npos) << warnings[i].text;
   }
   EXPECT_EQ(levels, (std::set<std::uint8_t>{Warning::CONSIDERED, Warning::REFLEX, Warning::CONTACT}));
 }

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <regex>
 #include <set>
 
 #include "ros/package_folder.h"
@@ -142,7 +144,7 @@ TEST(ToolModelTest, HoldsJointsWhereTheyAreSet) {
   expectBox(model.pieces, {0.9, 1.9, -0.1}, {1.1, 2.1, 0.1});
   EXPECT_EQ(model.joints, options.joints);
   options.joints = {{"slide", 3.5}};
-  EXPECT_TRUE(has(refusal(urdf, options), "tool/joints/slide is beyond the joint's limits, 0.5 to 3"));
+  EXPECT_TRUE(has(refusal(urdf, options), "tool/joints/slide is 3.5, beyond the joint's limits, 0.5 to 3"));
   options.joints = {{"slid", 1.0}};
   EXPECT_TRUE(has(refusal(urdf, options), "names 'slid', which is not a joint"));
 }
@@ -161,7 +163,43 @@ TEST(ToolModelTest, ClosesBothFingersOfAGripper) {
   EXPECT_TRUE(has(refusal(urdf, options), "mimics 'l'"));
 }
 
+TEST(ToolModelTest, JointsThatMimicEachOtherAreRefusedByTheirNames) {
+  const std::string limit = "<limit lower='0' upper='0.05' velocity='1' effort='1'/>";
+  const auto refusalOf = [&](const std::vector<std::pair<std::string, std::string>>& mimics) {
+    std::string elements = link("hand", kBall);
+    for (const auto& [name, leader] : mimics) {
+      elements += link(name + "_link", kBall) +
+                  joint(name, "prismatic", "hand", name + "_link", limit + "<mimic joint='" + leader + "'/>");
+    }
+    return refusal(robot(elements), toolOf("hand", {mimics.front().first + "_link"}));
+  };
+  EXPECT_TRUE(has(refusalOf({{"knuckle", "tip"}, {"tip", "knuckle"}}), "joints 'knuckle' and 'tip' mimic each other"));
+  EXPECT_TRUE(has(refusalOf({{"a", "b"}, {"b", "c"}, {"c", "b"}}), "joints 'b' and 'c' mimic each other"));
+  EXPECT_TRUE(has(refusalOf({{"a", "b"}, {"b", "c"}, {"c", "a"}}), "joints 'a', 'b' and 'c' mimic each other"));
+  EXPECT_TRUE(has(refusalOf({{"a", "a"}}), "joint 'a' mimics itself"));
+  EXPECT_TRUE(has(refusalOf({{"a", "none"}}), "joint 'a' mimics 'none', which does not exist"));
+}
+
 // A joint above the tool moves the whole tool.
+// A lift carries a torso, which carries a head, a crank that the lift mimics, and a hand, the tool.
+TEST(ToolModelTest, KnowsWhatTheOtherJointsOfTheRobotMove) {
+  const std::string limits = "<axis xyz='0 0 1'/><limit lower='0' upper='1' effort='1' velocity='1'/>";
+  const std::string urdf =
+      robot(link("base") + link("torso") + link("head") + link("crank") + link("hand", kBall) + link("finger", kBall) +
+            joint("lift", "prismatic", "base", "torso", limits + "<mimic joint='turn'/>") +
+            joint("pan", "revolute", "torso", "head", limits) + joint("turn", "revolute", "base", "crank", limits) +
+            joint("wrist", "revolute", "torso", "hand", limits) + joint("grip", "prismatic", "hand", "finger", limits));
+  const auto beside = [&](const std::string& frame, const std::vector<std::string>& links) {
+    return loadToolModel(urdf, toolOf(frame, links)).robot->beside;
+  };
+  using Names = std::set<std::string>;
+  EXPECT_EQ(beside("torso", {"hand", "finger"}).of_frame, (Names{"lift", "turn"}));
+  EXPECT_EQ(beside("torso", {"hand", "finger"}).elsewhere, Names{"pan"});
+  EXPECT_EQ(beside("hand", {"hand", "finger"}).of_frame, (Names{"lift", "turn", "wrist"}));
+  EXPECT_EQ(beside("base", {"hand"}).of_frame, Names{});
+  EXPECT_EQ(beside("base", {"hand"}).elsewhere, (Names{"grip", "pan"}));
+}
+
 TEST(ToolModelTest, LeavesOutJointsThatMoveTheToolAsAWhole) {
   const std::string urdf = robot(link("base", kBall) + link("hand", kBall) + link("tip") +
                                  joint("float", "floating", "base", "hand") + joint("mount", "fixed", "hand", "tip"));
@@ -178,6 +216,87 @@ TEST(ToolModelTest, MakesHullsOfMeshesToScale) {
   expectBox(tool("1 1 1"), {0, 0, 0}, {1, 1, 1});
   expectBox(tool("0.1 2 -3"), {0, 0, -3}, {0.1, 2, 0});
   EXPECT_NEAR(support(tool("1 1 1"), Vector3d(1, 1, 1).normalized()), 1.0 / std::sqrt(3.0), 1e-9);
+}
+
+std::string visual(const std::string& shape, const std::string& origin = "") {
+  return "<visual>" + origin + "<geometry>" + shape + "</geometry></visual>";
+}
+
+// A base with both kinds of geometry, a tip with collision geometry only, a shaft with visual geometry only.
+class VisualGeometryTest : public testing::Test {
+ protected:
+  static std::vector<std::string> shapesOf(const std::vector<std::string>& links, LinkGeometry geometry) {
+    ToolModelOptions options = toolOf("base", links);
+    options.geometry = geometry;
+    std::vector<std::string> shapes;
+    for (const auto& [link, is_visual, pieces] : loadToolModel(kUrdf, options).shapes)
+      shapes.push_back(link + (is_visual ? ": visual " : ": collision ") + std::to_string(pieces));
+    return shapes;
+  }
+  static std::string refusalOf(const std::vector<std::string>& links, LinkGeometry geometry) {
+    return ::refusal([&] { shapesOf(links, geometry); });
+  }
+
+  static const std::string kUrdf;
+};
+
+const std::string VisualGeometryTest::kUrdf =
+    robot(link("base", kBall + visual("<box size='1 1 1'/>") + visual("<sphere radius='1'/>")) +
+          link("shaft", visual("<cylinder radius='0.1' length='0.6'/>", "<origin xyz='0 0 1'/>")) + link("tip", kBall) +
+          joint("mount", "fixed", "base", "shaft") + joint("end", "fixed", "shaft", "tip"));
+
+using Shapes = std::vector<std::string>;
+
+TEST_F(VisualGeometryTest, StandsInWhereALinkHasNoCollisionGeometry) {
+  EXPECT_EQ(shapesOf({"base", "shaft", "tip"}, LinkGeometry::kEither),
+            (Shapes{"base: collision 1", "shaft: visual 1", "tip: collision 1"}));
+  EXPECT_EQ(shapesOf({"base", "shaft"}, LinkGeometry::kVisual), (Shapes{"base: visual 2", "shaft: visual 1"}));
+  EXPECT_EQ(shapesOf({"base", "tip"}, LinkGeometry::kCollision), (Shapes{"base: collision 1", "tip: collision 1"}));
+}
+
+TEST_F(VisualGeometryTest, IsWhereItsOriginIs) {
+  ToolModelOptions options = toolOf("base", {"shaft"});
+  options.geometry = LinkGeometry::kEither;
+  options.padding = 0.01;
+  expectBox(loadToolModel(kUrdf, options).pieces, {-0.11, -0.11, 0.69}, {0.11, 0.11, 1.31});
+}
+
+TEST_F(VisualGeometryTest, ALinkWithoutTheGeometryAskedForIsRefusedWithTheWayOut) {
+  EXPECT_EQ(
+      refusalOf({"base", "shaft"}, LinkGeometry::kCollision),
+      "link 'shaft': it has visual geometry, but no collision; set tool/geometry to either, add a <collision>, or list "
+      "only links with one in tool/links");
+  EXPECT_TRUE(has(refusalOf({"base", "tip"}, LinkGeometry::kVisual),
+                  "link 'tip': it has collision geometry, but no visual; set tool/geometry to either, add a <visual>"));
+  ToolModelOptions options = toolOf("a", {"a"});
+  options.geometry = LinkGeometry::kEither;
+  EXPECT_TRUE(has(refusal(robot(link("a")), options), "link 'a': it has no geometry; add a <"));
+}
+
+TEST_F(VisualGeometryTest, ALinkThatIsAPointIsLeftOutUnlessItIsListed) {
+  const std::string urdf =
+      robot(link("a", kBall) + link("b", visual("<box size='0 0 0'/>")) + link("c", visual("<sphere radius='1'/>")) +
+            joint("ab", "fixed", "a", "b") + joint("bc", "fixed", "b", "c"));
+  ToolModelOptions options = toolOf("a", {});
+  options.geometry = LinkGeometry::kEither;
+  const auto shapes = loadToolModel(urdf, options).shapes;
+  ASSERT_EQ(shapes.size(), 2U);
+  EXPECT_EQ(shapes[0].link, "a");
+  EXPECT_EQ(shapes[1].link, "c");
+  options.links = {"a", "b"};
+  EXPECT_TRUE(has(refusal(urdf, options), "link 'b': its box's size in "));
+}
+
+TEST_F(VisualGeometryTest, IsCheckedOnlyWhereItMayBeUsed) {
+  const std::string two = robot(
+      link("a", kBall) + link("b", "<visual><geometry><sphere radius='1'/><sphere radius='2'/></geometry></visual>") +
+      joint("ab", "fixed", "a", "b"));
+  ToolModelOptions options = toolOf("a", {"a"});
+  EXPECT_EQ(refusal(two, options), "");
+  for (const LinkGeometry geometry : {LinkGeometry::kEither, LinkGeometry::kVisual}) {
+    options.geometry = geometry;
+    EXPECT_TRUE(has(refusal(two, options), "link 'b': a visual must have one geometry of one shape"));
+  }
 }
 
 TEST(ToolModelTest, GrowsEveryPieceByThePadding) {
@@ -250,10 +369,34 @@ TEST(ToolModelTest, RefusesBadDescriptionsInOneLine) {
   }
 }
 
-// Each of them grows by two bytes. To move the rest for each took 31 s for a mebibyte of them.
+// Each of them grows by three bytes. To move the rest for each took 31 s for a mebibyte of them.
 TEST(ToolModelTest, ReadsADescriptionFullOfPercentSigns) {
   const std::string note = "<note text='" + std::string(size_t{7} << 20U, '%') + "'/>";
   EXPECT_EQ(loadToolModel(robot(link("a", kBall) + note), toolOf("a", {})).pieces.size(), 1U);
+}
+
+// urdfdom takes them for the formats of printf().
+TEST(ToolModelTest, KeepsPercentSignsInNames) {
+  const PackageFolder folder;
+  const std::string wide = "\xEF\xBC\x85";         // another sign, of full width
+  const std::string private_use = "\xEE\x80\x80";  // U+E000
+  for (const std::string& sign : std::vector<std::string>{"%", "%25", "%s", wide, private_use, private_use + "0%"}) {
+    SCOPED_TRACE(sign);
+    const std::string file = "robot/100" + sign + ".obj";
+    const std::string urdf =
+        robot(link("a" + sign) + link("b", collision("<mesh filename='package://" + file + "'/>")) +
+              joint("j" + sign, "revolute", "a" + sign, "b",
+                    "<axis xyz='0 0 1'/><limit lower='-4' upper='4' effort='1' velocity='1'/>"));
+    ToolModelOptions options = toolOf("a" + sign, {"b"});
+    EXPECT_TRUE(has(refusal(urdf, options), "package://" + file + ": no such file"));
+    folder.write(file == "robot/100%25.obj" ? "robot/100%.obj" : file, tetrahedronObj());
+    options.joints = {{"j" + sign, M_PI}};
+    const ToolModel model = loadToolModel(urdf, options);
+    expectBox(model.pieces, {-1, -1, 0}, {0, 0, 1});
+    EXPECT_EQ(model.frame, "a" + sign);
+    EXPECT_EQ(model.joints, options.joints);
+    fs::remove(folder.path() / "robot/100%.obj");
+  }
 }
 
 // They would be below no link, and so left out of every tool.
@@ -342,6 +485,22 @@ TEST_F(RealRobotTest, DrillIsCutWhereItIsHollow) {
   for (const Vector3d& direction : {Vector3d(1, 0, 0), Vector3d(0, -1, 0), Vector3d(0.6, 0, 0.8)}) {
     EXPECT_NEAR(support(whole, direction), support(hull, direction), 1e-7);
   }
+}
+
+// Only its shaft has collision geometry. Its meshes are missing: boxes stand in.
+TEST_F(RealRobotTest, DvrkInstrumentIsMadeOfItsVisualGeometryBeyondTheShaft) {
+  const std::string urdf =
+      std::regex_replace(read("dvrk_psm1.urdf"), std::regex("<mesh [^>]*/>"), "<box size='0.01 0.01 0.01'/>");
+  ToolModelOptions options = toolOf("PSM1_roll_link", {});
+  EXPECT_TRUE(has(refusal(urdf, options), "it has visual geometry, but no collision; set tool/geometry to either"));
+  options.geometry = LinkGeometry::kEither;
+  std::map<std::string, bool> visuals;
+  for (const LinkShape& shape : loadToolModel(urdf, options).shapes) visuals[shape.link] = shape.is_visual;
+  EXPECT_EQ(visuals, (std::map<std::string, bool>{{"PSM1_roll_link", false},
+                                                  {"PSM1_wrist_pitch_link", true},
+                                                  {"PSM1_wrist_yaw_link", true},
+                                                  {"PSM1_jaw_1_link", true},
+                                                  {"PSM1_jaw_2_link", true}}));
 }
 
 TEST_F(RealRobotTest, DvrkInstrumentIsRefusedByTheNameOfTheMissingMesh) {

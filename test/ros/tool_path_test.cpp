@@ -1,5 +1,6 @@
 #include "ros/input/tool_path.h"
 
+#include <utility>
 #include <vector>
 
 #include "base_and_arm.h"
@@ -17,22 +18,24 @@ class ToolPathTest : public BaseAndArm {
   }
   std::optional<sweep_guard_core::Time> push(ros::Time stamp, double z, std::uint64_t static_changes) {
     path_.note(fromMsg(stamp), static_changes);
-    std::vector<ArticulatedTool::Pose> poses(1);
-    poses[0].stamp = fromMsg(stamp);
-    poses[0].X_WT = Eigen::Translation3d(0.0, 0.0, z);
-    return path_.push(poses, {std::chrono::steady_clock::now(), monitor_.checkpoint(), base_});
+    std::vector<sweep_guard_core::PoseWithFrames> poses = {
+        {fromMsg(stamp), std::chrono::steady_clock::now(), Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, z))}};
+    const auto changed_from = path_.place(poses, base_, monitor_.checkpoint(), placed_);
+    queue();
+    return changed_from;
   }
   void moveBase(double z) {
     placeBase(z);
     changed_.get_future().wait();
   }
-  std::vector<double> queued() {
-    std::vector<sweep_guard_core::QueuedPose> poses;
-    queue_.takePoses(poses);
-    std::vector<double> z;
-    for (const auto& queued : poses) z.push_back(queued.pose.X_WT.translation().z());
-    return z;
+  void repeat() {
+    path_.repeat({}, monitor_.checkpoint(), placed_);
+    queue();
   }
+  void queue() {
+    for (const auto& placed : placed_) queued_.push_back(placed.pose.X_WT.translation().z());
+  }
+  std::vector<double> queued() { return std::exchange(queued_, {}); }
 
   sweep_guard_core::WarningMonitor monitor_{parameters_.limits};
   const sweep_guard_core::WorkpieceStore workpieces_;
@@ -40,7 +43,9 @@ class ToolPathTest : public BaseAndArm {
   sweep_guard_core::FrameMotionStore frame_motions_;
   sweep_guard_core::InputRecord record_;
   MovingFrames moving_frames_{parameters_.fixed_frame, {frames_, frame_motions_, monitor_, queue_, record_}};
-  ToolPath path_{parameters_.fixed_frame, {frames_, workpieces_, moving_frames_, monitor_, queue_}};
+  ToolPath path_{parameters_.fixed_frame, frames_, workpieces_, moving_frames_};
+  std::vector<sweep_guard_core::QueuedPose> placed_;
+  std::vector<double> queued_;
   const std::string base_ = "base";
   const ros::Time next_ = now_ + ros::Duration(0.01);
 };
@@ -51,7 +56,7 @@ TEST_F(ToolPathTest, TheMotionToThePoseAfterAChangeIsQueuedInBothPlaces) {
   EXPECT_EQ(push(next_, -0.5, /*static_changes=*/1), fromMsg(next_));
   EXPECT_EQ(queued(), std::vector<double>({0.5, -0.5}));
   ASSERT_TRUE(frames_.applyStaticChanges());
-  path_.repeat({}, monitor_.checkpoint());
+  repeat();
   EXPECT_EQ(queued(), std::vector<double>({3.5, 2.5}));
 }
 
@@ -60,7 +65,7 @@ TEST_F(ToolPathTest, AtAChangeThatNoPoseComesAfterTheNewestIsQueuedAgain) {
   moveBase(3.0);
   EXPECT_GT(path_.endAtNewest(/*static_changes=*/1), fromMsg(now_));
   ASSERT_TRUE(frames_.applyStaticChanges());
-  path_.repeat({}, monitor_.checkpoint());
+  repeat();
   EXPECT_EQ(queued(), std::vector<double>({0.5, 3.5}));
 }
 
@@ -68,7 +73,7 @@ TEST_F(ToolPathTest, AChangeBeforeTheFirstPoseRepeatsNothing) {
   moveBase(3.0);
   EXPECT_EQ(path_.endAtNewest(/*static_changes=*/1), sweep_guard_core::Time());
   frames_.applyStaticChanges();
-  path_.repeat({}, monitor_.checkpoint());
+  repeat();
   EXPECT_TRUE(queued().empty());
 }
 

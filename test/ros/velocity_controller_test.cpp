@@ -30,6 +30,22 @@ class VelocityControllerTest : public DropInTest {
   FakeVelocityController controller_{"twist_controller"};
 };
 
+// The time-out of zero_on_silence is half of the period.
+TEST_F(DropInTest, ASlowOperatorsRobotMovesAllOfTheTime) {
+  publishFrames({{"world", "base"}, {"tool", "tool0_controller"}});
+  Stream<geometry_msgs::PoseStamped> poses("tool_pose");
+  poses.send(poseAtOrigin());
+  Stream<Twist> commands("operator/twist", std::chrono::milliseconds(200));
+  const FakeVelocityController controller("twist_controller");
+  for (const Twist& command : {kUp, kDown, velocity(0.1, 0.1)}) {
+    commands.send(command);
+    controller.commands().await("the whole command", [&](const Twist& next) { return next == command; });
+    int zeros = 0;
+    for (int i = 0; i < 15; ++i) zeros += isZero(controller.commands().next()) ? 1 : 0;
+    EXPECT_LE(zeros, 4) << "they are four of five where zero is sent in between";
+  }
+}
+
 TEST_F(VelocityControllerTest, AFreeCommandArrivesUntouched) {
   commands_.send(kDown);
   awaitCommand(kDown);

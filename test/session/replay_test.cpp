@@ -35,7 +35,12 @@ constexpr double kHeight = 0.15;                  // [m] of the tip above the pl
 constexpr double kPeriod = 2.0;                   // [s] down, and up again
 constexpr double kSpeed = 0.16;                   // [m/s]
 constexpr double kTurnRate = 0.5;                 // [rad/s] of the arm's shoulder
+constexpr double kHold = 0.5;                     // [s] warning/hold_time
 constexpr double kFirstTouch = kHeight / kSpeed;  // [s] after the tip begins to come down
+
+constexpr double kContact = kPeriod - 2.0 * kFirstTouch + kHold;  // [s]
+
+double duration(const std::vector<std::string>& contact) { return std::stod(contact[2]) - std::stod(contact[1]); }
 
 geometry_msgs::PoseStamped poseAt(double t) {
   const double phase = std::fmod(t, kPeriod);
@@ -155,6 +160,7 @@ TEST_F(ReplayTest, ReportsEachContactWhenItWasWithItsLeads) {
     const double considered = std::stod(contacts[i][8]);
     const double reflex = std::stod(contacts[i][9]);
     EXPECT_NEAR(std::stod(contacts[i][1]), kFirstTouch + kPeriod * static_cast<double>(i - 1), 0.005);
+    EXPECT_NEAR(duration(contacts[i]), kContact, 0.01 * kDuration);
     EXPECT_EQ(contacts[i][4], "plate");
     EXPECT_EQ(contacts[i][6], "2");
     EXPECT_NEAR(std::stod(contacts[i][7]), 1e3 * (kSpeed * kPeriod / 2.0 - kHeight), 1.0);
@@ -196,6 +202,49 @@ TEST_F(ReplayTest, APictureOfAnEarlierReportIsRemoved) {
   for (const char* const picture : {"timeline.png", "contacts.png", "touches.png"}) {
     EXPECT_FALSE(fs::exists(folder_ / "report" / picture)) << printed;
   }
+}
+
+// The mesh and where it is are in the first part alone, and were recorded before the start.
+TEST_F(ReplayTest, PlaysThePartsOfASessionFromALaterTimeOn) {
+  const auto part = [this](const std::string& name) { return (folder_ / name).string(); };
+  {
+    rosbag::Bag first(part("a first.bag"), rosbag::bagmode::Write);
+    sweep_guard::DeformableMesh mesh = plate();
+    mesh.header.frame_id = "table";
+    first.write("/mesh", ros::Time(kBegin), mesh);
+    tf2_msgs::TFMessage placed;
+    geometry_msgs::TransformStamped& table = placed.transforms.emplace_back();
+    table.header.stamp = ros::Time(kBegin);
+    table.header.frame_id = "world";
+    table.child_frame_id = "table";
+    table.transform.translation.z = 0.02;
+    table.transform.rotation.w = 1.0;
+    first.write("/tf_static", ros::Time(kBegin), placed);
+    rosbag::Bag second(part("second.bag"), rosbag::bagmode::Write);
+    rosbag::Bag third(part("third.bag"), rosbag::bagmode::Write);
+    for (int i = 0; i < static_cast<int>(kDuration * kRate); ++i) {
+      const geometry_msgs::PoseStamped pose = poseAt(i / kRate);
+      rosbag::Bag& bag = i < 1500 ? first : i < 3000 ? second : third;
+      bag.write("/tool_pose", pose.header.stamp, pose);
+    }
+  }
+  const fs::path config = folder_ / "rigid.yaml";
+  std::ofstream(config) << "timing:\n  mesh_timeout: .inf\n";
+  const std::string arguments = "start:=2 config:=" + config.string();
+  const std::string list = part("a first.bag") + ":" + part("second.bag") + ":" + part("third.bag");
+  const std::string printed = replayBag(list, folder_, arguments);
+  const auto contacts = readCsv(folder_ / "report/contacts.csv");
+  ASSERT_EQ(contacts.size(), 2U) << printed;
+  EXPECT_NEAR(std::stod(contacts[1][1]), (kHeight - 0.02) / kSpeed + kPeriod, 0.005) << printed;
+  EXPECT_TRUE(has(printed, "(played from 2.0 s on), 2000 poses")) << printed;
+  EXPECT_FALSE(has(printed, "missing    ")) << printed;
+}
+
+// The guard holds a contact by the clock of the machine: at four times the speed it would join the two.
+TEST_F(ReplayTest, ContactsAreTwoAtFourTimesTheSpeed) {
+  writeBag({writeMesh, writePoses, writeVertices});
+  const std::string printed = replay("rate:=4");
+  EXPECT_EQ(readCsv(folder_ / "report/contacts.csv").size(), 3U) << printed;
 }
 
 // The file is in millimeters.

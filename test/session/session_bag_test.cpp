@@ -8,6 +8,7 @@
 #include <sweep_guard/DeformableMesh.h>
 #include <sweep_guard/MeshVertices.h>
 #include <sys/stat.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <filesystem>
 #include <fstream>
@@ -30,13 +31,26 @@ class SessionBagTest : public testing::Test {
   void writePose(double recorded, double stamp, const std::string& topic = "/tool_pose") {
     geometry_msgs::PoseStamped pose;
     pose.header.stamp = ros::Time(stamp);
+    pose.header.frame_id = "world";
     bag_.write(topic, ros::Time(recorded), pose);
   }
-  void writeMesh() { bag_.write("/mesh", ros::Time(100.0), sweep_guard::DeformableMesh()); }
+  void writeMesh(const std::string& topic = "/mesh", const std::string& frame = "world") {
+    sweep_guard::DeformableMesh mesh;
+    mesh.header.frame_id = frame;
+    mesh.mesh.triangles.resize(1);
+    bag_.write(topic, ros::Time(100.0), mesh);
+  }
+  void writeTransform(const std::string& topic, const std::string& parent, const std::string& child) {
+    tf2_msgs::TFMessage message;
+    message.transforms.resize(1);
+    message.transforms[0].header.frame_id = parent;
+    message.transforms[0].child_frame_id = child;
+    bag_.write(topic, ros::Time(101.0), message);
+  }
 
   SessionBag inspect() {
     bag_.close();
-    return inspectBag(path_, {"/tool_pose", "/mesh", "/mesh_vertices", ""});
+    return inspectSession(SessionFiles({path_}), {"/tool_pose", "/mesh", "/mesh_vertices", ""});
   }
 
   // Returns the message of the refusal.
@@ -63,9 +77,8 @@ TEST_F(SessionBagTest, CountsWhatIsGuarded) {
 }
 
 TEST_F(SessionBagTest, RefusesAFileThatIsMissingOrNoBag) {
-  const SessionTopics topics{"/tool_pose", "/mesh", "/mesh_vertices", ""};
   bag_.close();
-  EXPECT_THROW(inspectBag(path_ + ".not", topics), sweep_guard_core::InvalidInput);
+  EXPECT_THROW(SessionFiles({path_ + ".not"}), sweep_guard_core::InvalidInput);
   std::ofstream(path_) << "100 0 0 0 0 0 0 1\n";
   EXPECT_TRUE(has(refusal(), "not a rosbag"));
 }
@@ -98,15 +111,17 @@ TEST_F(SessionBagTest, SaysHowToGuardABagWithoutAMesh) {
 TEST_F(SessionBagTest, NeedsNoMeshThatComesFromElsewhereAndNoPoseThatComesFromTf) {
   writePose(101.0, 101.0);
   bag_.close();
-  EXPECT_EQ(inspectBag(path_, {"/tool_pose", "", "", ""}).poses.size(), 1U);
-  EXPECT_TRUE(inspectBag(path_, {"", "", "", ""}).poses.empty());
+  EXPECT_EQ(inspectSession(SessionFiles({path_}), {"/tool_pose", "", "", ""}).poses.size(), 1U);
+  EXPECT_TRUE(inspectSession(SessionFiles({path_}), {"", "", "", ""}).poses.empty());
 }
 
 TEST_F(SessionBagTest, NeedsTheJointsOfAToolWhoseJointsMove) {
   bag_.write("/joint_states", ros::Time(101.0), sensor_msgs::JointState());
   bag_.close();
-  EXPECT_TRUE(inspectBag(path_, {"", "", "", "/joint_states"}).poses.empty());
-  const std::string text = ::refusal([this] { inspectBag(path_, {"", "", "", "/arm/joint_states"}); });
+  EXPECT_TRUE(inspectSession(SessionFiles({path_}), {"", "", "", "/joint_states"}).poses.empty());
+  const std::string text = ::refusal([this] {
+    inspectSession(SessionFiles({path_}), {"", "", "", "/arm/joint_states"});
+  });
   EXPECT_TRUE(has(text, "no topic /arm/joint_states")) << text;
   EXPECT_TRUE(has(text, "give joint_states:=TOPIC")) << text;
 }
@@ -128,6 +143,74 @@ TEST_F(SessionBagTest, RefusesPosesWithStampsOfAnotherClock) {
   writePose(101.0, 41.0);
   writePose(102.0, 42.5);
   EXPECT_TRUE(has(refusal(), "stamped 59.5 s before they were recorded"));
+}
+
+// They are in the first part of a split recording.
+TEST_F(SessionBagTest, SaysWhereWhatIsLatchedHasGone) {
+  writePose(101.0, 101.0);
+  const std::string text = refusal();
+  EXPECT_TRUE(has(text, "no topic /mesh")) << text;
+  EXPECT_TRUE(has(text, "there is no /tf_static either")) << text;
+  EXPECT_TRUE(has(text, "in the first part of a split recording")) << text;
+  EXPECT_TRUE(has(text, "bag:=FIRST:SECOND")) << text;
+  EXPECT_TRUE(has(text, "--repeat-latched")) << text;
+}
+
+TEST_F(SessionBagTest, SaysNothingOfStaticTransformsThatAreThere) {
+  writePose(101.0, 101.0);
+  writeTransform("/tf_static", "world", "table");
+  const std::string text = refusal();
+  EXPECT_FALSE(has(text, "either")) << text;
+  EXPECT_TRUE(has(text, "--repeat-latched")) << text;
+}
+
+TEST_F(SessionBagTest, SaysNothingOfPartsIfTheMeshHasAnotherName) {
+  writePose(101.0, 101.0);
+  writeMesh("/liver/mesh");
+  const std::string text = refusal();
+  EXPECT_TRUE(has(text, "/liver/mesh (sweep_guard/DeformableMesh)")) << text;
+  EXPECT_FALSE(has(text, "--repeat-latched")) << text;
+}
+
+TEST_F(SessionBagTest, NamesTheFramesThatNoTransformPlaces) {
+  writePose(101.0, 101.0);
+  writeMesh("/mesh", "table_frame");
+  const SessionBag bag = inspect();
+  ASSERT_EQ(bag.missing.size(), 1U);
+  EXPECT_TRUE(has(bag.missing[0], "no transform of 'table_frame', and no topic /tf_static")) << bag.missing[0];
+  EXPECT_TRUE(has(bag.missing[0], "--repeat-latched")) << bag.missing[0];
+  const SessionTopics tool{"/tool_pose", "/mesh", "/mesh_vertices", "", {"tip"}, "table_frame"};
+  const SessionBag other = inspectSession(SessionFiles({path_}), tool);
+  ASSERT_EQ(other.missing.size(), 1U);
+  EXPECT_TRUE(has(other.missing[0], "no transform of 'tip', 'world'")) << other.missing[0];
+}
+
+TEST_F(SessionBagTest, LacksNoTransformOfAFrameThatIsInTf) {
+  writePose(101.0, 101.0);
+  writeMesh("/mesh", "/table_frame");
+  writeTransform("/tf_static", "world", "table_frame");
+  writeTransform("/tf", "base", "tip");
+  bag_.close();
+  for (const std::string tool : {"tip", "base", "table_frame"}) {
+    const SessionTopics topics{"/tool_pose", "/mesh", "/mesh_vertices", "", {tool}};
+    EXPECT_TRUE(inspectSession(SessionFiles({path_}), topics).missing.empty()) << tool;
+  }
+}
+
+TEST_F(SessionBagTest, CountsThePosesFromTheStartOn) {
+  writeMesh();
+  for (const double second : {101.0, 102.0, 103.0}) writePose(second, second);
+  bag_.close();
+  const SessionFiles files({path_});
+  const SessionTopics topics{"/tool_pose", "/mesh", "/mesh_vertices", ""};
+  for (const auto& [start, poses] : {std::pair{0, 3U}, {1, 3U}, {2, 2U}, {3, 1U}}) {
+    const SessionBag bag = inspectSession(files, topics, seconds(start));
+    EXPECT_EQ(bag.poses.size(), poses) << start;
+    EXPECT_EQ(bag.begin, sweep_guard_core::Time(seconds(100)));
+    EXPECT_EQ(bag.start, sweep_guard_core::Time(seconds(100 + start)));
+  }
+  const std::string text = ::refusal([&] { inspectSession(files, topics, seconds(4)); });
+  EXPECT_TRUE(has(text, "it ends after 3.0 s; give a smaller start:=SECONDS")) << text;
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ SessionBag bagOf(int poses) {
   SessionBag bag;
   for (int i = poses; i > 0; --i) bag.poses.push_back(at(1320 - 10 * i));
   bag.begin = kBagBegin;
+  bag.start = kBagBegin;
   bag.end = at(2000);
   return bag;
 }
@@ -68,6 +69,16 @@ TEST(SessionReportTest, SummaryNamesContactsAndPosesNotSwept) {
   EXPECT_TRUE(has(summary(log, bagOf(1)), "ahead of 1 of 1, by 0.10 s in the median"));
   log.addSweep(at(1360), at(1370));
   EXPECT_TRUE(has(summary(log, bagOf(2)), "0.050 s between two poses NOT SWEPT"));
+}
+
+TEST(SessionReportTest, SummarySaysFromWhereOnItWasPlayedAndWhatWasMissing) {
+  SessionBag bag = bagOf(1);
+  EXPECT_TRUE(has(summary(oneContact(), bag), "session    2.0 s, 1 poses, "));
+  bag.start = at(1500);
+  bag.missing = {"no transform of 'table'", "no vertices"};
+  const std::string text = summary(oneContact(), bag);
+  EXPECT_TRUE(has(text, "session    2.0 s (played from 1.5 s on), 1 poses, ")) << text;
+  EXPECT_TRUE(has(text, "\nmissing    no transform of 'table'\nmissing    no vertices\nswept ")) << text;
 }
 
 TEST(SessionReportTest, SummaryCountsAPoseAsSweptOnlyWithinAnInterval) {

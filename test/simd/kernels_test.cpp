@@ -269,13 +269,13 @@ TEST_P(KernelsTest, FindsTrianglesWhollyBeyondAPlaneAndWithACornerInside) {
       }
     }
     ClusterCorners corners{};
-    for (auto& of_all : corners.places) {
+    for (auto& of_all : corners) {
       for (std::uint8_t& place : of_all) place = static_cast<std::uint8_t>(random.below(kClusterBlocks * kBlock));
     }
     const TriangleBits found =
         GetParam().classifyTriangles(corners, {bits[0].data(), bits[1].data(), bits[2].data(), bits[3].data()});
     for (size_t i = 0; i < kCluster; ++i) {
-      const auto corner = [&](size_t k) { return bits[corners.places[k][i] / kBlock][corners.places[k][i] % kBlock]; };
+      const auto corner = [&](size_t k) { return bits[corners[k][i] / kBlock][corners[k][i] % kBlock]; };
       const bool beyond = (corner(0) & corner(1) & corner(2) & (kInsideAll - 1)) != 0;
       const bool inside = ((corner(0) | corner(1) | corner(2)) & kInsideAll) != 0;
       EXPECT_EQ((found.not_beyond >> i & 1) != 0, !beyond);

@@ -81,8 +81,7 @@ TEST(DrillingTest, RefusesNoHoleAndOptionsOutOfRange) {
 
 // A roof with its ridge along y at x = 0 and 45 degree sides: the point at x = -1 lies a radius below the ridge.
 TEST(HolesAroundTest, LeavesOutPointsThatAreMissingOrFarBelow) {
-  const TopSurface roof(
-      sweep_guard_core::TriangleMesh({{0, 0, 3}, {0, 3, 2.9}, {-3, 0, 0}, {3, 0, 0}}, {{0, 1, 2}, {0, 1, 3}}));
+  const sweep_guard_core::TriangleMesh roof({{0, 0, 3}, {0, 3, 2.9}, {-3, 0, 0}, {3, 0, 0}}, {{0, 1, 2}, {0, 1, 3}});
   const auto found = holesAround(roof, /*radius=*/0.5, /*count=*/4);
   ASSERT_EQ(found.size(), 2U);
   EXPECT_TRUE(found[0].isApprox(Eigen::Vector3d(0, 0, 3)));
@@ -90,20 +89,19 @@ TEST(HolesAroundTest, LeavesOutPointsThatAreMissingOrFarBelow) {
 }
 
 // Two triangles over the unit triangle, the upper one slanted from z = 1 to z = 3 along x, and a loose vertex above both.
-TopSurface twoTriangles() {
-  return TopSurface(sweep_guard_core::TriangleMesh(
-      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 3}, {0, 1, 1}, {0, 0, 9}}, {{0, 1, 2}, {3, 4, 5}}));
+sweep_guard_core::TriangleMesh twoTriangles() {
+  return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 3}, {0, 1, 1}, {0, 0, 9}}, {{0, 1, 2}, {3, 4, 5}}};
 }
 
 TEST(TopSurfaceTest, GivesTheHeightOfTheUpperTriangle) {
-  EXPECT_NEAR(twoTriangles().height(0.25, 0.25).value(), 1.5, 1e-6);
-  EXPECT_NEAR(twoTriangles().height(1.0, 0.0).value(), 3.0, 1e-6);
+  EXPECT_NEAR(surfaceHeight(twoTriangles(), 0.25, 0.25).value(), 1.5, 1e-6);
+  EXPECT_NEAR(surfaceHeight(twoTriangles(), 1.0, 0.0).value(), 3.0, 1e-6);
 }
 
-TEST(TopSurfaceTest, HasNoHeightBesideTheWorkpiece) { EXPECT_FALSE(twoTriangles().height(0.6, 0.6)); }
+TEST(TopSurfaceTest, HasNoHeightBesideTheWorkpiece) { EXPECT_FALSE(surfaceHeight(twoTriangles(), 0.6, 0.6)); }
 
 TEST(TopSurfaceTest, IsHighestAtAVertexOfATriangle) {
-  EXPECT_TRUE(twoTriangles().highestPoint().isApprox(Eigen::Vector3d(1, 0, 3)));
+  EXPECT_TRUE(highestPoint(twoTriangles()).isApprox(Eigen::Vector3d(1, 0, 3)));
 }
 
 }  // namespace

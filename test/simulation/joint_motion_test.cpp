@@ -43,9 +43,10 @@ class JointMotionTest : public testing::Test {
     bag_.write("joint_states", ros::Time(1000.0 + ++written_), message);
   }
 
-  std::vector<StampedPositions> read(const std::map<std::string, double>& fixed = {}) {
+  std::vector<StampedPositions> read(const std::map<std::string, double>& fixed = {},
+                                     const std::map<std::string, std::string>& joint_names = {}) {
     bag_.close();
-    return readJointMotion(path_, "", arm(), fixed);
+    return readJointMotion(path_, "", arm(), fixed, joint_names);
   }
 
   std::string path_;
@@ -77,6 +78,12 @@ TEST_F(JointMotionTest, NamesTheJointsThatTheBagDoesNotHave) {
 TEST_F(JointMotionTest, NeedsNoPositionOfAJointThatIsHeld) {
   write(1.0, {"elbow"}, {0.5});
   EXPECT_EQ(read({{"jaw", 0.25}}).at(0).positions, (std::vector<double>{0.5, 0.25}));
+}
+
+TEST_F(JointMotionTest, JointsMayHaveOtherNamesInTheBag) {
+  write(1.0, {"wheel"}, {});  // of a base, which publishes no positions
+  write(1.0, {"outer_elbow", "elbow", "jaw"}, {0.5, 7.0, 0.25});
+  EXPECT_EQ(read({}, {{"outer_elbow", "elbow"}}).at(0).positions, (std::vector<double>{0.5, 0.25}));
 }
 
 TEST_F(JointMotionTest, RefusesABagOfTwoRuns) {

@@ -17,10 +17,10 @@ StampedPose stampedPoseAt(int stamp, double x, double z) {
   return pose;
 }
 
-std::vector<std::pair<long, double>> play(Replay* replay, int count) {
+std::vector<std::pair<long, double>> play(const PoseStream& replay, int count) {
   std::vector<std::pair<long, double>> played;
   for (int i = 0; i < count; ++i) {
-    const auto pose = replay->next();
+    const auto pose = replay();
     if (!pose) break;
     played.emplace_back(std::chrono::duration_cast<seconds>(pose->stamp.time_since_epoch()).count(),
                         pose->X_WT.translation().x());
@@ -28,39 +28,41 @@ std::vector<std::pair<long, double>> play(Replay* replay, int count) {
   return played;
 }
 
+std::vector<StampedPose> fourPoses() {
+  return {stampedPoseAt(10, 0, 0), stampedPoseAt(11, 1, 0), stampedPoseAt(11, 2, 0), stampedPoseAt(14, 3, 0)};
+}
+
 using Played = std::vector<std::pair<long, double>>;
 
 TEST(ReplayTest, GivesEveryPoseOnceAtItsIntervalAndEnds) {
-  Replay replay({stampedPoseAt(10, 0, 0), stampedPoseAt(11, 1, 0), stampedPoseAt(11, 2, 0), stampedPoseAt(14, 3, 0)},
-                {/*loop=*/false});
-  EXPECT_EQ(play(&replay, 9), (Played{{0, 0}, {1, 1}, {1, 2}, {4, 3}}));
-  EXPECT_FALSE(replay.next());
+  const PoseStream replay = replayed(fourPoses(), /*loop=*/false, Eigen::Vector3d::Zero());
+  EXPECT_EQ(play(replay, 9), (Played{{0, 0}, {1, 1}, {1, 2}, {4, 3}}));
+  EXPECT_FALSE(replay());
 }
 
 TEST(ReplayTest, LoopsBackAndForthWithoutAJump) {
-  Replay replay({stampedPoseAt(10, 0, 0), stampedPoseAt(11, 1, 0), stampedPoseAt(11, 2, 0), stampedPoseAt(14, 3, 0)},
-                {/*loop=*/true});
-  EXPECT_EQ(play(&replay, 9), (Played{{0, 0}, {1, 1}, {1, 2}, {4, 3}, {7, 2}, {7, 1}, {8, 0}, {9, 1}, {9, 2}}));
+  const PoseStream replay = replayed(fourPoses(), /*loop=*/true, Eigen::Vector3d::Zero());
+  EXPECT_EQ(play(replay, 9), (Played{{0, 0}, {1, 1}, {1, 2}, {4, 3}, {7, 2}, {7, 1}, {8, 0}, {9, 1}, {9, 2}}));
 }
 
 TEST(ReplayTest, MovesTheLowestTipOfTheFirstSecondsToTheTarget) {
-  Replay::Options options;
-  options.target_W = {5, 0, 1};
-  Replay replay({stampedPoseAt(0, 0, 3), stampedPoseAt(4, 1, 2), stampedPoseAt(6, 2, -7)}, options);
-  EXPECT_EQ(replay.next()->X_WT.translation(), Eigen::Vector3d(4, 0, 2));
-  EXPECT_EQ(replay.next()->X_WT.translation(), Eigen::Vector3d(5, 0, 1));
+  const PoseStream replay =
+      replayed({stampedPoseAt(0, 0, 3), stampedPoseAt(4, 1, 2), stampedPoseAt(6, 2, -7)}, /*loop=*/true, {5, 0, 1});
+  EXPECT_EQ(replay()->X_WT.translation(), Eigen::Vector3d(4, 0, 2));
+  EXPECT_EQ(replay()->X_WT.translation(), Eigen::Vector3d(5, 0, 1));
 }
 
 TEST(ReplayTest, LeavesRotationsAlone) {
   StampedPose turned = stampedPoseAt(0, 0, 0);
   turned.X_WT.linear() = Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitX()).toRotationMatrix();
-  Replay replay({turned}, {/*loop=*/false, /*target_W=*/{1, 2, 3}});
-  EXPECT_EQ(replay.next()->X_WT.linear(), turned.X_WT.linear());
+  const PoseStream replay = replayed({turned}, /*loop=*/false, /*target_W=*/{1, 2, 3});
+  EXPECT_EQ(replay()->X_WT.linear(), turned.X_WT.linear());
 }
 
 TEST(ReplayTest, RefusesAMotionThatCannotBePlayed) {
-  EXPECT_THROW(Replay({}, {}), sweep_guard_core::InvalidInput);
-  EXPECT_THROW(Replay({stampedPoseAt(1, 0, 0), stampedPoseAt(1, 1, 0)}, {/*loop=*/true}),
+  const Eigen::Vector3d target_W = Eigen::Vector3d::Zero();
+  EXPECT_THROW(replayed({}, /*loop=*/true, target_W), sweep_guard_core::InvalidInput);
+  EXPECT_THROW(replayed({stampedPoseAt(1, 0, 0), stampedPoseAt(1, 1, 0)}, /*loop=*/true, target_W),
                sweep_guard_core::InvalidInput);
 }
 

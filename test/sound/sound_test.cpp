@@ -10,11 +10,15 @@ namespace {
 
 constexpr size_t kRate = 44100;
 
-SoundCue at(WarningLevel level, std::optional<double> seconds = {}, bool acknowledged = false) {
-  return {level, seconds ? std::optional(fromSeconds(*seconds)) : std::nullopt, acknowledged};
+HeardWarning at(WarningLevel level, std::optional<double> seconds = {}, bool acknowledged = false) {
+  HeardWarning warning;
+  warning.level = level;
+  if (seconds) warning.time_to_collision = fromSeconds(*seconds);
+  warning.acknowledged = acknowledged;
+  return warning;
 }
 
-SoundCue considered(double seconds) { return at(WarningLevel::kConsidered, seconds); }
+HeardWarning considered(double seconds) { return at(WarningLevel::kConsidered, seconds); }
 
 std::vector<std::int16_t> render(const Earcon& earcon, double seconds) {
   std::vector<std::int16_t> samples;
@@ -107,7 +111,7 @@ TEST(SynthesizerTest, NeverClicks) {
   std::uint32_t random = 1;
   for (int i = 0; i < 3000; ++i) {
     random = random * 1664525U + 1013904223U;
-    SoundCue cue = at(static_cast<WarningLevel>((random >> 16U) % 5), (random >> 8U) % 1000 / 1000.0);
+    HeardWarning cue = at(static_cast<WarningLevel>((random >> 16U) % 5), (random >> 8U) % 1000 / 1000.0);
     cue.acknowledged = (random >> 24U) % 2 == 0;
     synthesizer.render(earconOf(cue, true), (random >> 20U) % 1500, samples);
   }

@@ -295,8 +295,9 @@ class LateSession {
     store_.add("tray", samples);
     monitor_.frameHeard("tray", tray.stamps[i], instant(at));
     if (!swept_ || passed_ || random_.chance(0.1)) return;
-    guard_.follow(store_.get());
-    guard_.sweepOn(workpieces_, report_);
+    follow();
+    placeFollowed(*store_.get(), *swept_);
+    guard_.sweep(*swept_, workpieces_, report_, /*arrived=*/false);
     take(at);
   }
 
@@ -357,6 +358,7 @@ class LateSession {
     if (random_.chance(0.5)) return;
     before.anew->goes_on = true;
     before.X_WT = scene_.toolPose(i);
+    before.bodies = {{before.X_WT}};
     pass(before);
   }
 

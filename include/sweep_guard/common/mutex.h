@@ -11,20 +11,20 @@
 #else
 #define SWEEP_GUARD_ATTRIBUTE(x)
 #endif
-#define CAPABILITY(x) SWEEP_GUARD_ATTRIBUTE(capability(x))
-#define SCOPED_CAPABILITY SWEEP_GUARD_ATTRIBUTE(scoped_lockable)
-#define GUARDED_BY(x) SWEEP_GUARD_ATTRIBUTE(guarded_by(x))
-#define PT_GUARDED_BY(x) SWEEP_GUARD_ATTRIBUTE(pt_guarded_by(x))
-#define REQUIRES(...) SWEEP_GUARD_ATTRIBUTE(requires_capability(__VA_ARGS__))
-#define ACQUIRE(...) SWEEP_GUARD_ATTRIBUTE(acquire_capability(__VA_ARGS__))
-#define TRY_ACQUIRE(...) SWEEP_GUARD_ATTRIBUTE(try_acquire_capability(__VA_ARGS__))
-#define RELEASE(...) SWEEP_GUARD_ATTRIBUTE(release_capability(__VA_ARGS__))
+#define SWEEP_GUARD_CAPABILITY(x) SWEEP_GUARD_ATTRIBUTE(capability(x))
+#define SWEEP_GUARD_SCOPED_CAPABILITY SWEEP_GUARD_ATTRIBUTE(scoped_lockable)
+#define SWEEP_GUARD_GUARDED_BY(x) SWEEP_GUARD_ATTRIBUTE(guarded_by(x))
+#define SWEEP_GUARD_PT_GUARDED_BY(x) SWEEP_GUARD_ATTRIBUTE(pt_guarded_by(x))
+#define SWEEP_GUARD_REQUIRES(...) SWEEP_GUARD_ATTRIBUTE(requires_capability(__VA_ARGS__))
+#define SWEEP_GUARD_ACQUIRE(...) SWEEP_GUARD_ATTRIBUTE(acquire_capability(__VA_ARGS__))
+#define SWEEP_GUARD_TRY_ACQUIRE(...) SWEEP_GUARD_ATTRIBUTE(try_acquire_capability(__VA_ARGS__))
+#define SWEEP_GUARD_RELEASE(...) SWEEP_GUARD_ATTRIBUTE(release_capability(__VA_ARGS__))
 
 namespace sweep_guard_core {
 
 /// A mutex whose owner inherits the priority of the threads that wait for it: a real-time thread shares it with others.
 /// Not recursive. Never throws, and ignores errors of pthread.
-class CAPABILITY("mutex") Mutex {
+class SWEEP_GUARD_CAPABILITY("mutex") Mutex {
  public:
   Mutex() {
     pthread_mutexattr_t attributes;
@@ -37,30 +37,30 @@ class CAPABILITY("mutex") Mutex {
   Mutex(const Mutex&) = delete;
   Mutex& operator=(const Mutex&) = delete;
 
-  void lock() ACQUIRE() { pthread_mutex_lock(&mutex_); }
-  bool tryLock() TRY_ACQUIRE(true) { return pthread_mutex_trylock(&mutex_) == 0; }
-  void unlock() RELEASE() { pthread_mutex_unlock(&mutex_); }
+  void lock() SWEEP_GUARD_ACQUIRE() { pthread_mutex_lock(&mutex_); }
+  bool tryLock() SWEEP_GUARD_TRY_ACQUIRE(true) { return pthread_mutex_trylock(&mutex_) == 0; }
+  void unlock() SWEEP_GUARD_RELEASE() { pthread_mutex_unlock(&mutex_); }
 
  private:
   pthread_mutex_t mutex_;
 };
 
 /// Holds a mutex during its lifetime, but between unlock() and lock(), as in std::condition_variable_any::wait().
-class SCOPED_CAPABILITY Lock {
+class SWEEP_GUARD_SCOPED_CAPABILITY Lock {
  public:
-  explicit Lock(Mutex& mutex) ACQUIRE(mutex) : mutex_(mutex) { mutex.lock(); }
-  Lock(Mutex& mutex, std::adopt_lock_t) REQUIRES(mutex) : mutex_(mutex) {}  ///< of a mutex that is held
-  ~Lock() RELEASE() {
+  explicit Lock(Mutex& mutex) SWEEP_GUARD_ACQUIRE(mutex) : mutex_(mutex) { mutex.lock(); }
+  Lock(Mutex& mutex, std::adopt_lock_t) SWEEP_GUARD_REQUIRES(mutex) : mutex_(mutex) {}  ///< of a mutex that is held
+  ~Lock() SWEEP_GUARD_RELEASE() {
     if (held_) mutex_.unlock();
   }
   Lock(const Lock&) = delete;
   Lock& operator=(const Lock&) = delete;
 
-  void lock() ACQUIRE() {
+  void lock() SWEEP_GUARD_ACQUIRE() {
     mutex_.lock();
     held_ = true;
   }
-  void unlock() RELEASE() {
+  void unlock() SWEEP_GUARD_RELEASE() {
     held_ = false;
     mutex_.unlock();
   }

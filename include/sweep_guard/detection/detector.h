@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sweep_guard/detection/submesh.h"
@@ -38,7 +40,13 @@ class Detector {
     find(submesh, swept_M, detection_);
     TriangleSet& found = detection_.triangles;
     if (!std::is_sorted(found.begin(), found.end())) std::sort(found.begin(), found.end());
+    if (listener_) listener_(submesh, swept_M, detection_);
     return detection_;
+  }
+
+  /// Sets what hears of each answer before detect() returns it; if it throws, detect() does.
+  void reportTo(std::function<void(const Submesh&, const SweptVolume&, const Detection&)> listener) {
+    listener_ = std::move(listener);
   }
 
  private:
@@ -46,6 +54,7 @@ class Detector {
   virtual void find(const Submesh& submesh, const SweptVolume& swept_M, Detection& detection) = 0;
 
   Detection detection_;
+  std::function<void(const Submesh&, const SweptVolume&, const Detection&)> listener_;
 };
 
 /// `gl_context` that takes the first of offscreenContextNames() that works on this machine.

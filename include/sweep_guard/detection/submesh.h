@@ -134,8 +134,6 @@ bool whollyBeyond(const TriangleMesh& mesh_M, const simd::Planes& planes);
 /// The boxes around the clusters of a submesh. Keeps its buffers from one submesh to the next.
 class ClusterBoxes {
  public:
-  explicit ClusterBoxes(const simd::Kernels& kernels = simd::kernels()) : kernels_(&kernels) {}
-
   /// Computes the boxes. The mesh of the submesh must not change before the calls that follow.
   void around(const Submesh& submesh);
 
@@ -143,7 +141,7 @@ class ClusterBoxes {
   double distanceFrom(const Eigen::Vector3d& p_M) const;
 
  private:
-  const simd::Kernels* kernels_;
+  const simd::Kernels* kernels_ = &simd::kernels();
   size_t count_ = 0;  // padded with the last box
   std::vector<float> sides_;
   Eigen::Vector3d origin_M_ = Eigen::Vector3d::Zero();

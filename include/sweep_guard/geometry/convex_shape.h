@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <array>
-#include <optional>
 #include <variant>
 #include <vector>
 
@@ -120,40 +119,38 @@ class ConvexShape {
   /// Returns the axes of a box around the body, as columns: of a cylinder and of a box their own. The last is axis_T().
   const Eigen::Matrix3d& axes_T() const { return faces_.R_TF; }
 
-  /// A round cylinder around the z axis of a frame C, with z in [-length, 0].
+  /// A round cylinder around the z axis of the body frame S, with z in [-length, 0].
   struct Cylinder {
     double radius;  ///< [m]
     double length;  ///< [m]
-    Eigen::Isometry3d X_TC;
   };
-  std::optional<Cylinder> asCylinder() const;  ///< the body without padding, if it is a cylinder
+  /// Returns the body without padding if it is a cylinder, else null.
+  const Cylinder* asCylinder() const { return std::get_if<Cylinder>(&body_S_); }
 
-  /// A box around the origin of a frame C, with edges along its axes.
-  struct CenteredBox {
-    Eigen::Vector3d half_extents;  ///< [m]
-    Eigen::Isometry3d X_TC;
-  };
-  std::optional<CenteredBox> asBox() const;  ///< the body without padding, if it is a box
+  /// Half extents of a box around the origin of S, with edges along its axes [m].
+  using Box = Eigen::Vector3d;
+  /// Returns the body without padding if it is a box, else null.
+  const Box* asBox() const { return std::get_if<Box>(&body_S_); }
+
+  /// Returns whether the body without padding is a point.
+  bool isBall() const {
+    return std::holds_alternative<Points>(body_S_) && std::get<Points>(body_S_).corners.size() == 1;
+  }
+
+  Eigen::Isometry3d X_TS() const;  ///< pose of the frame of a cylinder or a box
 
   /// Returns the surface as made, without what padded() added. That of a round body is a polyhedron inside it.
   const TriangleMesh& mesh_T() const { return mesh_T_; }
   const Moments& moments_T() const { return moments_T_; }  ///< of the corners of all triangles of mesh_T()
 
  private:
-  struct Round {
-    double radius;  // around z, filling z in [-length, 0]
-    double length;
-  };
-  struct Box {
-    Eigen::Vector3d half_extents;
-  };
   struct Points {
     explicit Points(const std::vector<Eigen::Vector3d>& points);
     std::vector<Eigen::Vector3d> corners;
     LinearFunctions reach;  // of each corner along a direction
     LinearFunctions faces;  // distance outside of each; none if it is not known how deep a point lies
   };
-  using Body = std::variant<Round, Box, Points>;
+  using Body = std::variant<Cylinder, Box, Points>;
 
   // Front and rear face, across the z axis of a frame F: discs or rectangles.
   struct Faces {
@@ -166,13 +163,12 @@ class ConvexShape {
   };
 
   ConvexShape(Body body_S, const std::vector<Eigen::Vector3d>& vertices_S, std::vector<Triangle> triangles);
-  Eigen::Isometry3d placeOfBody() const;
   double boundingRadiusOfBody() const;
   Faces faces() const;
   Faces facesOfBox(const Eigen::Matrix3d& axes_T) const;
   Eigen::Vector3d faceSupport(double z, const Eigen::Vector3d& direction_T) const;
 
-  Body body_S_;  // in a frame S of its own
+  Body body_S_;
   Eigen::Matrix3d R_TS_ = Eigen::Matrix3d::Identity();
   Eigen::Vector3d p_TS_ = Eigen::Vector3d::Zero();
   double padding_ = 0.0;

@@ -25,6 +25,9 @@ struct Cluster {
   std::uint32_t count;   ///< 1 to simd::kCluster
   /// The blocks of its corners; unused entries repeat the last block.
   std::array<std::uint32_t, simd::kClusterBlocks> blocks;
+
+  /// Returns a bit for each of its triangles, from the lowest on.
+  std::uint64_t all() const { return ~std::uint64_t{0} >> (simd::kCluster - count); }
 };
 
 /// Size of a group of consecutive blocks, except the last; the first index of a group is a multiple of it.

@@ -104,15 +104,12 @@ using Path = std::vector<PathPoint>;
 /// @param tool_radius  largest distance of a tool point from the origin of T [m], >= 0
 Motion mergedMotion(const Path& path, size_t first, size_t last, double tool_radius);
 
-/// Limits of the replacement of a path by one motion.
-struct MergeLimits {
-  double max_deviation;  ///< [m], >= 0
-  double max_rotation;   ///< of the merged motion [rad], > 0
-};
-
 /// Returns the index, at most `last`, of the last point of a merged motion from `first` that keeps the limits; first +
 /// 1 if there is none. Searches by doubling and halving, which costs little more than reading the path; a longer motion
 /// may exist.
-size_t endOfMergedMotion(const Path& path, size_t first, size_t last, double tool_radius, const MergeLimits& limits);
+/// @param max_deviation  of the path from the merged motion [m], >= 0
+/// @param max_rotation   of the merged motion [rad], > 0
+size_t endOfMergedMotion(const Path& path, size_t first, size_t last, double tool_radius, double max_deviation,
+                         double max_rotation);
 
 }  // namespace sweep_guard_core

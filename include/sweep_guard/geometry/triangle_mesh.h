@@ -24,9 +24,6 @@ constexpr double kMaxSentRounding = 0.01;
 /// @param largest  largest absolute coordinate on each axis [m]
 double float32Rounding(const Eigen::Vector3d& largest);
 
-/// What the sender says of a surface.
-enum class SurfaceKind { kMayEnclose, kSheet };
-
 /// A checked triangle mesh at one time, in its frame M. Stores vertices as float32 offsets from an origin; rounding()
 /// bounds the error. Keeps degenerate triangles and unused vertices, because they may be a wire or a tip. All indices
 /// are those given to the constructor (the sender's), except in places(), order() and blocks().
@@ -34,12 +31,12 @@ class TriangleMesh {
  public:
   /// @param vertices_M  positions [m], each coordinate finite and within +-kMaxCoordinate
   /// @param triangles   at least one, each index below vertices_M.size()
-  /// @param surface     kSheet: the sender says that it encloses nothing
+  /// @param is_sheet    the sender says that it encloses nothing
   /// @param rounded     how far the positions may be from the true ones already [m], >= 0; joins rounding()
   /// @throws InvalidInput if there is no triangle, or naming the first invalid triangle or else vertex, or if the
   ///     environment variable SWEEP_GUARD_SIMD is wrong (simd::kernels())
-  TriangleMesh(const std::vector<Eigen::Vector3d>& vertices_M, std::vector<Triangle> triangles,
-               SurfaceKind surface = SurfaceKind::kMayEnclose, double rounded = 0.0);
+  TriangleMesh(const std::vector<Eigen::Vector3d>& vertices_M, std::vector<Triangle> triangles, bool is_sheet = false,
+               double rounded = 0.0);
 
   /// Replaces the positions of all vertices in one pass; rebuilds no structure. Exchanges buffers and allocates
   /// nothing, except for a spare buffer at the first call on a mesh with renumbered vertices. rounding() is then that of
@@ -54,13 +51,13 @@ class TriangleMesh {
   const std::vector<Triangle>& triangles() const { return topology_->triangles; }
   /// Returns triangles(), which stay the same object for all deformations and copies.
   std::shared_ptr<const std::vector<Triangle>> sharedTriangles() const { return {topology_, &topology_->triangles}; }
-  /// Returns what the surface encloses: of kSheet nothing.
+  /// Returns what the surface encloses: of a sheet nothing.
   const Enclosure& enclosure() const { return topology_->enclosure; }
   /// Returns whether for every point off the surface it is known whether it lies inside: the surface has no border.
-  bool closed() const { return topology_->surface != SurfaceKind::kSheet && enclosure().openEdges() == 0; }
-  /// Returns the number of edges at its borders; 0 of kSheet, which has no inside.
+  bool closed() const { return !isSheet() && enclosure().openEdges() == 0; }
+  /// Returns the number of edges at its borders; 0 of a sheet, which has no inside.
   size_t openEdges() const { return enclosure().openEdges(); }
-  SurfaceKind surfaceKind() const { return topology_->surface; }
+  bool isSheet() const { return topology_->is_sheet; }
   size_t vertexCount() const { return offsets_.size() / 3; }
 
   /// Returns the position of vertex `i` in M [m]; i < vertexCount(), not checked.
@@ -94,7 +91,7 @@ class TriangleMesh {
  private:
   struct Topology {
     std::vector<Triangle> triangles;
-    SurfaceKind surface;
+    bool is_sheet;
     Enclosure enclosure;
     MeshOrder order;
   };

@@ -41,7 +41,7 @@ class AllowedMatches {
 
  private:
   mutable Mutex mutex_;
-  std::vector<Match> matches_ GUARDED_BY(mutex_);
+  std::vector<Match> matches_ SWEEP_GUARD_GUARDED_BY(mutex_);
 };
 
 }  // namespace sweep_guard_core

@@ -50,23 +50,13 @@ struct FrameMotion {
 /// The motions of frames by their names, none null.
 using FrameMotions = std::map<std::string, std::shared_ptr<const FrameMotion>>;
 
-/// The poses of a frame at the times of a path of the tool.
-struct FramePath {
-  struct Point {
-    Eigen::Isometry3d X_WM = Eigen::Isometry3d::Identity();
-    Matrix6d covariance = Matrix6d::Zero();  ///< of the error of X_WM, as PredictedPose
-    /// Bound [m] on the distance of a point of the workpiece, since the previous point, from where it would be if the frame
-    /// moved as a Motion.
-    double deviation_bound = 0.0;
-  };
-  std::vector<Point> points;  ///< the first at the begin of the path, then one for each pose
-};
-
-/// Returns how a frame moves along a path; empty if that is not known up to its end.
+/// Returns how a frame M moves along a path: its pose X_WM, in the place of X_WT, at the begin and at each pose of the path. Empty if
+/// that is not known up to its end.
 /// @param begin   stamp at which the path begins
 /// @param path    only its times count
-/// @param radius  largest distance of a point of the workpiece from the origin of the frame [m], >= 0
-std::optional<FramePath> framePath(const FrameMotion& motion, Time begin, const PredictedPath& path, double radius);
+/// @param radius  largest distance of a point of the workpiece from the origin of the frame [m], >= 0: their deviation bounds hold
+///     for such points
+std::optional<PredictedPath> framePath(const FrameMotion& motion, Time begin, const PredictedPath& path, double radius);
 
 /// Keeps the newest motions of frames that move on their own. Any thread.
 class FrameMotionStore {
@@ -101,14 +91,14 @@ class FrameMotionStore {
   std::optional<Eigen::Isometry3d> newest(const std::string& frame) const;
 
  private:
-  FrameMotion motionOf(const std::string& frame) const REQUIRES(mutex_);
-  void replace(const std::string& frame, FrameMotion motion) REQUIRES(mutex_);
+  FrameMotion motionOf(const std::string& frame) const SWEEP_GUARD_REQUIRES(mutex_);
+  void replace(const std::string& frame, FrameMotion motion) SWEEP_GUARD_REQUIRES(mutex_);
 
   mutable Mutex mutex_;
-  std::set<std::string> frames_ GUARDED_BY(mutex_);
-  std::shared_ptr<const FrameMotions> motions_ GUARDED_BY(mutex_);
-  std::set<std::string> added_ GUARDED_BY(mutex_);              // frames of add()
-  std::map<std::string, Time> needed_from_ GUARDED_BY(mutex_);  // by frame, as forgetBefore()
+  std::set<std::string> frames_ SWEEP_GUARD_GUARDED_BY(mutex_);
+  std::shared_ptr<const FrameMotions> motions_ SWEEP_GUARD_GUARDED_BY(mutex_);
+  std::set<std::string> added_ SWEEP_GUARD_GUARDED_BY(mutex_);              // frames of add()
+  std::map<std::string, Time> needed_from_ SWEEP_GUARD_GUARDED_BY(mutex_);  // by frame, as forgetBefore()
 };
 
 }  // namespace sweep_guard_core

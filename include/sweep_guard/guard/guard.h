@@ -53,7 +53,7 @@ class Guard {
   /// Adds a pose that the next sweep passes through. A workpiece whose frame is missing at the pose of the sweep is
   /// reported as unplaced. Once its frame is known again, it is swept through the added poses that hold its frame.
   /// @param pose  finite, rotations orthonormal, stamp not earlier than the previous pose's, PoseWithFrames::bodies as many
-  ///     as the robot's, with its state, or none without a robot; not checked. After time went back, call reset() first.
+  ///     as the robot's, with its state; one, at `X_WT`, without a robot; not checked. After time went back, call reset() first.
   ///     Where a static transform has changed: first the pose in the old placement, 1 ns earlier, then the poses of the way to it in
   ///     the new one, with its stamp and PoseWithFrames::anew, then the pose itself in the new one
   void pass(const PoseWithFrames& pose);
@@ -63,13 +63,9 @@ class Guard {
   /// std::bad_alloc, outside of the sweeps.
   /// @param pose  as for pass(); not checked
   /// @param[out] report  overwritten; its buffers are used again
-  void sweep(const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report);
-
-  /// Sweeps on against the workpieces in frames of follow() that are known further than at the last sweep, up to its pose; the
-  /// others are tested where the tool stands. Must not be called before the first sweep, nor after pass() (asserted). Fails and
-  /// throws as sweep() does.
-  /// @param[out] report  overwritten; its buffers are used again
-  void sweepOn(const Workpieces& workpieces, SweepReport& report);
+  /// @param arrived  false: `pose` is that of the last sweep, and no pose was passed since (not checked). Sweeps on against the
+  ///     workpieces in frames of follow() that are known further than then; the others are tested where the tool stands
+  void sweep(const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report, bool arrived = true);
 
   /// Sets how frames move on their own, from the next pass(), sweep() and predict() on: PoseWithFrames::X_WM does not count for
   /// them. Their workpieces are swept up to the older of the newest poses of frame and tool, and predicted along the motion
@@ -145,7 +141,6 @@ class Guard {
   Guard(std::vector<Tool> bodies, std::shared_ptr<const Robot> robot, std::unique_ptr<Detector> detector,
         const GuardOptions& options);
 
-  void sweepBodies(const PoseWithFrames& pose, bool arrived, const Workpieces& workpieces, SweepReport& report);
   void observe(const PoseWithFrames& pose);
   SweepSetup sweepSetup(const GuardedBody& body) const;
   void throwIfStopping() const;

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <boost/container/small_vector.hpp>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -21,6 +23,9 @@ struct BodyPose {
   /// the body moved as Motion says.
   double deviation_bound = 0.0;
 };
+
+/// Without an allocation if there is one.
+using BodyPoses = boost::container::small_vector<BodyPose, 1, std::allocator<BodyPose>>;
 
 /// What a static transform that changed has placed anew: it did not move there.
 struct PlacedAnew {
@@ -48,9 +53,9 @@ struct PoseWithFrames {
   SteadyTime received;                                     ///< when the pose arrived
   Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< translation [m]
   std::map<std::string, Eigen::Isometry3d> X_WM =
-      {};                             ///< [m], by name of M; a frame whose transform is missing is left out
-  std::vector<BodyPose> bodies = {};  ///< of each body of the guarded tool; empty: it is one body, in T
-  RobotState state = {};              ///< of the robot whose bodies these are; means nothing without any
+      {};                               ///< [m], by name of M; a frame whose transform is missing is left out
+  BodyPoses bodies = {BodyPose{X_WT}};  ///< of each body of the guarded tool; a rigid one is one body, in T
+  RobotState state = {};                ///< of the robot whose bodies these are; without joints for a rigid tool
   /// What jumped on the way to this pose, in words, as in "joint 'elbow' jumped: 130 rad/s": the motion does not go on from
   /// there. Empty: nothing did.
   std::string jump = {};
@@ -59,8 +64,6 @@ struct PoseWithFrames {
   std::optional<PlacedAnew> anew = {};
   /// Of those of X_WM that are followed, see placeFollowed(), or were placed anew since the pose before.
   std::map<std::string, FrameDrift> drifts = {};
-
-  BodyPose body(size_t i) const { return bodies.empty() ? BodyPose{X_WT} : bodies[i]; }
 };
 
 /// Copies a pose. Allocates nothing if both have the same frames and bodies.

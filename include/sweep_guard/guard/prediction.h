@@ -36,10 +36,10 @@ struct PredictedMotion {
   PoseWithFrames from;       ///< newest measured pose; a default value before the first sweep
   PredictedPath path;        ///< empty if the motion is not known yet
   size_t reflex_sweeps = 0;  ///< number of poses in the reflex interval (HorizonOptions); meaningless without a path
-  std::vector<PredictedPath> body_paths = {};  ///< of each of `from.bodies`, at the same times; empty if there are none
+  std::vector<PredictedPath> body_paths = {};       ///< of each body of an articulated tool, at the same times
   std::shared_ptr<const FrameMotions> frames = {};  ///< of those that move on their own; null: none
 
-  const PredictedPath& pathOf(size_t body) const { return from.bodies.empty() ? path : body_paths[body]; }
+  const PredictedPath& pathOf(size_t body) const { return body_paths.empty() ? path : body_paths[body]; }
 };
 
 /// One sweep along the predicted path, or a fraction of a sweep, tested against one workpiece. Times count from the

@@ -10,8 +10,19 @@
 
 namespace sweep_guard_core {
 
-/// When a force is withdrawn.
-struct ForceLimits {
+struct ForceOptions {
+  ContactLaw law;
+  double position_scale = 1.0;                     ///< displacement of the tool per displacement of the device [-], > 0
+  double force_scale = 1.0;                        ///< force at the device per force on the tool [-], > 0
+  double max_force = 3.0;                          ///< at the device [N], > 0
+  double max_force_rate = 500.0;                   ///< [N/s], > 0
+  double max_torque = 0.0;                         ///< at the device [N m], >= 0; 0: no torque
+  double max_torque_rate = 20.0;                   ///< [N m/s], > 0
+  double device_damping = 2.0;                     ///< of device and hand [N s/m]; above that of the law at the device
+  double device_turn_damping = 0.01;               ///< the same about any axis [N m s/rad], > 0
+  Duration period = std::chrono::milliseconds(1);  ///< > 0
+  Duration output_delay = std::chrono::milliseconds(2);  ///< until what is sent acts, at most; >= 0
+  // When a force is withdrawn:
   Duration warning_silence = std::chrono::milliseconds(150);  ///< by receipt, > 0
   Duration silence = std::chrono::milliseconds(50);           ///< of poses and planes, by receipt, > 0
   Duration ramp = std::chrono::milliseconds(20);              ///< in which the force then goes to zero, > 0
@@ -31,10 +42,9 @@ struct ForcePermission {
 /// | no pose or no planes yet, an old pose, planes past `valid_until`, incomplete or of an unknown tool | 0 |
 /// | pose, planes or device silent for `silence` | from 1 down to 0 within `ramp` |
 /// | otherwise | 1 |
-/// @param inputs  but for PermissionInputs::command
 /// @param device  newest pose that the device reports itself; empty: the tool stands for it
-ForcePermission decideForce(const PermissionInputs& inputs, const std::optional<Timestamps>& device, const Instant& now,
-                            const ForceLimits& limits);
+ForcePermission decideForce(const MotionInputs& inputs, const std::optional<Timestamps>& device, const Instant& now,
+                            const ForceOptions& options);
 
 /// A device that is sampled and driven with a period, and the damper that is simulated with it.
 struct SampledDevice {
@@ -62,21 +72,6 @@ double dampingWithLever(double damping, double turn_damping, double lever);
 struct DeviceWrench {
   Eigen::Vector3d force_D = Eigen::Vector3d::Zero();   ///< [N]
   Eigen::Vector3d torque_D = Eigen::Vector3d::Zero();  ///< [N m]
-};
-
-struct ForceOptions {
-  ContactLaw law;
-  double position_scale = 1.0;                     ///< displacement of the tool per displacement of the device [-], > 0
-  double force_scale = 1.0;                        ///< force at the device per force on the tool [-], > 0
-  double max_force = 3.0;                          ///< at the device [N], > 0
-  double max_force_rate = 500.0;                   ///< [N/s], > 0
-  double max_torque = 0.0;                         ///< at the device [N m], >= 0; 0: no torque
-  double max_torque_rate = 20.0;                   ///< [N m/s], > 0
-  double device_damping = 2.0;                     ///< of device and hand [N s/m]; above that of the law at the device
-  double device_turn_damping = 0.01;               ///< the same about any axis [N m s/rad], > 0
-  Duration period = std::chrono::milliseconds(1);  ///< > 0
-  Duration output_delay = std::chrono::milliseconds(2);  ///< until what is sent acts, at most; >= 0
-  ForceLimits limits;
 };
 
 /// What a force is computed from.

@@ -9,10 +9,12 @@
 
 namespace sweep_guard_core {
 
-/// How a hand turns, about all axes together.
-struct TurnLimits {
-  double max_rate;          ///< [rad/s], > 0
-  double max_acceleration;  ///< [rad/s^2], > 0
+/// How a hand moves at most.
+struct HandLimits {
+  double max_speed = 0.5;                ///< of the hand along any axis [m/s], > 0
+  double max_acceleration = 50.0;        ///< [m/s^2], > 0
+  double max_turn_rate = 5.0;            ///< about all axes together [rad/s], > 0
+  double max_turn_acceleration = 500.0;  ///< about all axes together [rad/s^2], > 0
 };
 
 /// Returns by how much [rad] the integral of the turn rate over an interval may differ from the rotation vector between
@@ -24,22 +26,15 @@ struct TurnLimits {
 /// longest path that it can have turned, plus the angle.
 /// @param angle     of the rotation between the ends, in [0, pi] [rad]
 /// @param interval  >= 0 [s]
-double coningBound(double angle, double interval, const TurnLimits& limits);
+double coningBound(double angle, double interval, const HandLimits& limits);
 
 /// Keeps a device passive in each of its axes, three of translation and three of rotation, with one PassivityController
 /// each. The turn about an axis is what the hand may have turned about it: see coningBound(). One thread at a time. It
 /// allocates nothing.
 class PassiveDevice {
  public:
-  struct Options {
-    double max_speed = 0.5;                ///< of the hand along any axis [m/s], > 0
-    double max_acceleration = 50.0;        ///< [m/s^2], > 0
-    double max_turn_rate = 5.0;            ///< about all axes together [rad/s], > 0
-    double max_turn_acceleration = 500.0;  ///< about all axes together [rad/s^2], > 0
-  };
-
   /// @throws InvalidInput  if an option is NaN or out of range
-  PassiveDevice(const ForceOptions& force, const Options& options);
+  PassiveDevice(const ForceOptions& force, const HandLimits& limits);
 
   /// A hand in a frame F that does not move.
   struct Hand {
@@ -65,7 +60,7 @@ class PassiveDevice {
   bool hasTorque() const { return axes_.size() > kTranslation; }
 
   static constexpr size_t kTranslation = 3;  // axes
-  const TurnLimits turn_limits_;
+  const HandLimits limits_;
   std::vector<PassivityController> axes_;  // three of translation, then, with torque, three of rotation
   std::optional<Hand> newest_;
   SteadyTime measured_;  // when the hand was there

@@ -18,6 +18,8 @@ struct JointVariable {
   double upper = std::numeric_limits<double>::infinity();   ///< [rad or m], >= lower
   bool continuous = false;                                  ///< turns without end: positions a turn apart are the same
   double velocity = 0.0;  ///< largest by the robot description [rad/s or m/s]; 0: not known
+  bool turns =
+      true;  ///< its positions are angles; a KinematicTree finds that out. Joints that mimic it may move otherwise
 };
 
 /// A link L of a robot, and the joint that joins it to its parent P: L is where the joint frame J is, moved by the joint.
@@ -53,9 +55,6 @@ class KinematicTree {
   /// Returns the index of the topmost link of the body of a link: joints within a body do not move. TreeLink::kRoot: the
   /// link moves with the root.
   size_t bodyOf(size_t link) const { return bodies_[link]; }
-
-  /// Returns whether the positions of a variable are angles. Those that mimic its joint may move otherwise than it does.
-  bool turns(size_t variable) const;
 
   /// Returns the position of each variable closest to 0 within its limits [rad or m].
   std::vector<double> nearestToZero() const;

@@ -21,6 +21,9 @@ struct WarningThresholds {
   static WarningThresholds ofMinProbability(double min_probability);
 };
 
+/// How long a warning is valid that a guard publishes.
+constexpr Duration kWarningValid = std::chrono::milliseconds(200);
+
 /// Limits of computeWarning(), which does not check them. The first three have no default.
 struct WarningLimits {
   Duration pose_timeout;  ///< a pose older than this is stale; > 0
@@ -34,6 +37,9 @@ struct WarningLimits {
   Duration overload = std::chrono::milliseconds(20);
   WarningThresholds thresholds = {};
   Duration acknowledge_time = std::chrono::seconds(10);  ///< longest time that a warning stays acknowledged; >= 0
+
+  /// Returns whether something is still shown that has ended so long ago.
+  bool hold(Duration since_end) const { return since_end <= hold_time; }
 };
 
 /// The level and the reasons for it.

@@ -41,6 +41,7 @@ struct WarningInputs {
     Duration period{};                     ///< between its transforms, as a rule
     Duration late{};                       ///< its age when it was last found to be late
     std::optional<SteadyTime> found = {};  ///< when that was; empty: never
+    std::vector<Duration> intervals = {};  ///< the newest ones between its transforms
   };
   struct Contact {
     std::string id;
@@ -64,11 +65,6 @@ struct WarningInputs {
     std::optional<SteadyTime> acknowledged_until = {};  ///< end of an acknowledgement; may have passed
     std::uint32_t acknowledged_revision = 0;            ///< of the mesh that was acknowledged
   };
-  /// Poses that waited and were swept at once. `found`: when.
-  struct Backlog {
-    Duration waited{};  ///< the first of these poses
-    SteadyTime found;
-  };
   /// Something that is reported for a while after `found`.
   struct Event {
     std::string message;
@@ -86,16 +82,18 @@ struct WarningInputs {
   std::vector<Object> objects;     ///< ascending by id, each once
   std::vector<OtherTool> other_tools;
   std::vector<Frame> frames;               ///< ascending by name, each once
+  std::vector<std::string> links;          ///< of the tool's convex pieces; empty where they have none
   std::optional<Contact> contact;          ///< newest contact; of several in one sweep, the first reported
   std::vector<std::string> intended;       ///< workpieces that the newest sweep met as intended (Intention)
   std::vector<WorkpieceWarning> warnings;  ///< each workpiece once
   WorkpieceWarning removed;                ///< newest alarms of workpieces that are gone
-  Time covered_until;                 ///< every workpiece is tested up to here, measured or predicted; epoch: never
-  std::optional<Backlog> overload;    ///< newest backlog that exceeded the limit
-  std::optional<Event> pose_loss;     ///< newest poses that were sent and did not arrive
-  std::optional<Event> jump;          ///< newest motion that is too fast to be believed, in words
-  std::optional<Event> unread;        ///< newest message on a mesh topic that belongs to no workpiece
-  std::vector<std::string> required;  ///< ids of the workpieces that must be there: ascending
+  Time covered_until;                  ///< every workpiece is tested up to here, measured or predicted; epoch: never
+  std::optional<SteadyTime> overload;  ///< when poses were last swept at once that had waited beyond the limit
+  Duration backlog{};                  ///< how long the first of these had waited
+  std::optional<Event> pose_loss;      ///< newest poses that were sent and did not arrive
+  std::optional<Event> jump;           ///< newest motion that is too fast to be believed, in words
+  std::optional<Event> unread;         ///< newest message on a mesh topic that belongs to no workpiece
+  std::vector<std::string> required;   ///< ids of the workpieces that must be there: ascending
   std::optional<SteadyTime> waiting_since;  ///< when the oldest pose that is not yet swept was received
   Duration look_ahead{};                    ///< time that computing the newest prediction took
   std::map<Reason, std::string> faults;     ///< current faults, each with a message for people

@@ -16,9 +16,9 @@
 namespace sweep_guard_core {
 
 class Faults;
-class LateFrames;
 class Refusals;
 class SweptWorkpieces;
+class Tool;
 class WorkpieceWarnings;
 struct SampledQuery;
 
@@ -55,6 +55,9 @@ class WarningMonitor {
 
   /// Sets the ids of the workpieces without which the warning is not clear.
   void require(const std::set<std::string>& ids);
+
+  /// Sets the tool whose links the text names.
+  void setTool(const Tool& tool);
 
   /// Sets the guards of other tools: the warning is not clear while one of them is silent for longer than `pose_timeout`.
   /// @param names  each once; not checked
@@ -236,41 +239,42 @@ class WarningMonitor {
     Workpieces tested;
   };
 
-  void restartLocked() REQUIRES(mutex_);
-  void sweptBeforeJump(const SweepReport& report, const Checkpoint& checkpoint, SteadyTime now) REQUIRES(mutex_);
-  bool isToBeSweptLocked(const Checkpoint& checkpoint) const REQUIRES(mutex_);
-  void disableLocked(const std::string& asked_by) REQUIRES(mutex_);
+  void restartLocked() SWEEP_GUARD_REQUIRES(mutex_);
+  void sweptBeforeJump(const SweepReport& report, const Checkpoint& checkpoint, SteadyTime now)
+      SWEEP_GUARD_REQUIRES(mutex_);
+  bool isToBeSweptLocked(const Checkpoint& checkpoint) const SWEEP_GUARD_REQUIRES(mutex_);
+  void disableLocked(const std::string& asked_by) SWEEP_GUARD_REQUIRES(mutex_);
   Progress readProgress() const { return {waiting_since_(), hung_()}; }  // before the lock: these are call-backs
-  void computeLocked(const Instant& now, const Progress& progress, Warning& warning) const REQUIRES(mutex_);
+  void computeLocked(const Instant& now, const Progress& progress, Warning& warning) const SWEEP_GUARD_REQUIRES(mutex_);
   std::string whyNotAcknowledgedLocked(const std::string& id, const Instant& now, const Progress& progress) const
-      REQUIRES(mutex_);
-  std::string refusal(const std::vector<std::string>& ids = {}) const REQUIRES(mutex_);
-  void meets(const Workpiece& workpiece, const std::vector<std::uint32_t>& triangles, SteadyTime now) REQUIRES(mutex_);
-  void noteJump(const SweepReport& report, SteadyTime now) REQUIRES(mutex_);
-  void addFailures(const std::vector<SweepFailure>& failures, const char* what) REQUIRES(mutex_);
-  void beginCoverage(const Prediction& prediction) REQUIRES(mutex_);
-  WarningInputs inputsAbout(const std::vector<std::string>& ids, const char* hung) const REQUIRES(mutex_);
-  Time coveredUntil(const Instant& now) const REQUIRES(mutex_);
-  WarningInputs::OtherTool* findTool(const std::string& name) REQUIRES(mutex_);
+      SWEEP_GUARD_REQUIRES(mutex_);
+  std::string refusal(const std::vector<std::string>& ids = {}) const SWEEP_GUARD_REQUIRES(mutex_);
+  void meets(const Workpiece& workpiece, const std::vector<std::uint32_t>& triangles, SteadyTime now)
+      SWEEP_GUARD_REQUIRES(mutex_);
+  void noteJump(const SweepReport& report, SteadyTime now) SWEEP_GUARD_REQUIRES(mutex_);
+  void addFailures(const std::vector<SweepFailure>& failures, const char* what) SWEEP_GUARD_REQUIRES(mutex_);
+  void beginCoverage(const Prediction& prediction) SWEEP_GUARD_REQUIRES(mutex_);
+  WarningInputs inputsAbout(const std::vector<std::string>& ids, const char* hung) const SWEEP_GUARD_REQUIRES(mutex_);
+  Time coveredUntil(const Instant& now) const SWEEP_GUARD_REQUIRES(mutex_);
+  WarningInputs::OtherTool* findTool(const std::string& name) SWEEP_GUARD_REQUIRES(mutex_);
 
   const std::function<void()> on_fault_;
   const std::function<std::optional<SteadyTime>()> waiting_since_;
   const std::function<const char*()> hung_;
   mutable Mutex mutex_;
-  WarningLimits limits_ GUARDED_BY(mutex_);
-  std::uint64_t epoch_ GUARDED_BY(mutex_) = 0;
-  std::uint64_t first_epoch_ GUARDED_BY(mutex_) = 0;  // from this one on, time has jumped between the epochs
-  std::uint64_t placed_anew_ GUARDED_BY(mutex_) = 0;  // number of the newest fault of placedAnew()
+  WarningLimits limits_ SWEEP_GUARD_GUARDED_BY(mutex_);
+  std::uint64_t epoch_ SWEEP_GUARD_GUARDED_BY(mutex_) = 0;
+  std::uint64_t first_epoch_ SWEEP_GUARD_GUARDED_BY(mutex_) = 0;  // from here on, time has jumped between the epochs
+  std::uint64_t placed_anew_ SWEEP_GUARD_GUARDED_BY(mutex_) = 0;  // number of the newest fault of placedAnew()
   mutable WarningInputs inputs_
-      GUARDED_BY(mutex_);  // covered_until, waiting_since and hung are those of the last warning
-  const std::unique_ptr<Faults> faults_ PT_GUARDED_BY(mutex_);  // these keep their part of the inputs
-  const std::unique_ptr<LateFrames> late_frames_ PT_GUARDED_BY(mutex_);
-  const std::unique_ptr<SweptWorkpieces> workpieces_ PT_GUARDED_BY(mutex_);
-  const std::unique_ptr<WorkpieceWarnings> warnings_ PT_GUARDED_BY(mutex_);
-  const std::unique_ptr<Refusals> refused_meshes_ PT_GUARDED_BY(mutex_);
-  const std::unique_ptr<Refusals> refused_vertices_ PT_GUARDED_BY(mutex_);
-  Time swept_until_ GUARDED_BY(mutex_);  // every workpiece
-  std::optional<Coverage> coverage_ GUARDED_BY(mutex_);
+      SWEEP_GUARD_GUARDED_BY(mutex_);  // covered_until, waiting_since and hung are those of the last warning
+  const std::unique_ptr<Faults> faults_ SWEEP_GUARD_PT_GUARDED_BY(mutex_);  // these keep their part of the inputs
+  const std::unique_ptr<SweptWorkpieces> workpieces_ SWEEP_GUARD_PT_GUARDED_BY(mutex_);
+  const std::unique_ptr<WorkpieceWarnings> warnings_ SWEEP_GUARD_PT_GUARDED_BY(mutex_);
+  const std::unique_ptr<Refusals> refused_meshes_ SWEEP_GUARD_PT_GUARDED_BY(mutex_);
+  const std::unique_ptr<Refusals> refused_vertices_ SWEEP_GUARD_PT_GUARDED_BY(mutex_);
+  Time swept_until_ SWEEP_GUARD_GUARDED_BY(mutex_);  // every workpiece
+  std::optional<Coverage> coverage_ SWEEP_GUARD_GUARDED_BY(mutex_);
 };
 
 }  // namespace sweep_guard_core

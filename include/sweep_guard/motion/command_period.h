@@ -35,19 +35,11 @@ class CommandPeriod {
   size_t count_ = 0;  // since the last pause
 };
 
-/// Notices that a stream of commands has stopped. It is silent until the first command.
-class CommandSilence {
- public:
-  /// @param timeout  longest time between two commands of a stream, > 0
-  explicit CommandSilence(Duration timeout) : timeout_(timeout) {}
-
-  void received(SteadyTime now) { newest_ = now; }
-
-  bool silent(SteadyTime now) const { return !newest_ || now - *newest_ > timeout_; }
-
- private:
-  const Duration timeout_;
-  std::optional<SteadyTime> newest_;
-};
+/// Returns whether a stream of commands has stopped, or has not begun.
+/// @param newest   when its newest command was received; empty: none has come
+/// @param timeout  longest time between two commands, > 0
+inline bool isSilent(const std::optional<SteadyTime>& newest, Duration timeout, SteadyTime now) {
+  return !newest || now - *newest > timeout;
+}
 
 }  // namespace sweep_guard_core

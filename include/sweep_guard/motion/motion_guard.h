@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -10,33 +9,9 @@
 #include "sweep_guard/motion/braking.h"
 #include "sweep_guard/motion/motion_in_flight.h"
 #include "sweep_guard/motion/motion_permission.h"
-#include "sweep_guard/motion/plane_set.h"
 #include "sweep_guard/motion/velocity_limiter.h"
 
 namespace sweep_guard_core {
-
-struct MotionGuardOptions {
-  double deceleration = 1.0;  ///< that the robot reaches at any point of the tool when it is stopped [m/s^2], > 0
-  double standoff = 0.002;    ///< distance from a plane at which the closing speed is 0 [m], >= 0
-  Duration dead_time{};       ///< until the robot begins to do what was sent, >= 0
-  Duration time_constant{};   ///< of the first-order lag with which the robot follows, >= 0
-  PermissionLimits permission;
-};
-
-/// What is known when a command is to be passed on, apart from the command. Null or empty: nothing has arrived yet.
-struct MotionInputs {
-  struct ToolPose {
-    Eigen::Isometry3d X_WT;
-    Timestamps timestamps;
-  };
-  std::shared_ptr<const PlaneSet> planes;                 ///< newest ones
-  std::shared_ptr<const ToolBalls> tool;                  ///< newest one
-  std::optional<ToolPose> pose;                           ///< newest one
-  std::optional<PermissionInputs::GuardWarning> warning;  ///< newest one
-};
-
-/// Returns what a permission is decided by, without a command.
-PermissionInputs permissionInputs(const MotionInputs& inputs);
 
 /// A commanded velocity of one point of the tool.
 struct MotionCommand {
@@ -79,7 +54,9 @@ class MotionGuard {
 
   /// Decides how much of a command is let through, as guard() does, and remembers nothing.
   /// @param command  without a stamp of its own, that of its receipt
-  PermissionDecision permission(const MotionInputs& inputs, const Timestamps& command, const Instant& now) const;
+  PermissionDecision permission(const MotionInputs& inputs, const Timestamps& command, const Instant& now) const {
+    return decidePermission(inputs, command, now, options_);
+  }
 
   /// Remembers that zero was sent.
   void stop(SteadyTime now);

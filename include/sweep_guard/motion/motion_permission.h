@@ -1,10 +1,13 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "sweep_guard/common/time.h"
 #include "sweep_guard/common/warning_level.h"
+#include "sweep_guard/motion/plane_set.h"
 
 namespace sweep_guard_core {
 
@@ -31,14 +34,18 @@ enum class PermissionCause : std::uint8_t {
   kOldPose,        ///< the newest tool pose is older than `pose_age`
   kIncomplete,     ///< not every workpiece was tested at the pose of the separating planes
   kNoTool,         ///< the tool that the separating planes were computed for is not known
-  kDeviceSilent    ///< of a haptic device: none of its own poses has arrived within ForceLimits::silence
+  kDeviceSilent    ///< of a haptic device: none of its own poses has arrived within ForceOptions::silence
 };
 
 /// Returns the cause in words for people.
 const char* textOf(PermissionCause cause);
 
-/// When to let nothing through.
-struct PermissionLimits {
+struct MotionGuardOptions {
+  double deceleration = 1.0;  ///< that the robot reaches at any point of the tool when it is stopped [m/s^2], > 0
+  double standoff = 0.002;    ///< distance from a plane at which the closing speed is 0 [m], >= 0
+  Duration dead_time{};       ///< until the robot begins to do what was sent, >= 0
+  Duration time_constant{};   ///< of the first-order lag with which the robot follows, >= 0
+  // When to let nothing through:
   Duration silence = std::chrono::milliseconds(150);           ///< of the guard, by receipt; > 0
   Duration command_timeout = std::chrono::milliseconds(100);   ///< > 0
   double escape_speed = 0.0;                                   ///< of any tool point [m/s], >= 0; 0: no escape
@@ -46,23 +53,23 @@ struct PermissionLimits {
   Duration pose_age = std::chrono::milliseconds(500);          ///< of the tool's pose, by its stamp; > 0
 };
 
-/// What is known when a command is to be passed on.
-struct PermissionInputs {
+/// What is known when a command is to be passed on, apart from the command. Null or empty: nothing has arrived yet.
+struct MotionInputs {
+  struct ToolPose {
+    Eigen::Isometry3d X_WT;
+    Timestamps timestamps;
+  };
   struct GuardWarning {
     WarningLevel level = WarningLevel::kUnknown;
     std::uint32_t reasons = 0;  ///< bits of Reason
     SteadyTime received;
   };
-  struct Planes {
-    Timestamps timestamps;   ///< stamp of the pose that they were computed at
-    Time valid_until;        ///< by the clock of the stamps
-    bool complete = true;    ///< every workpiece was tested at that pose
-    bool tool_known = true;  ///< the balls of the tool that they were computed for have arrived
-  };
-  std::optional<Timestamps> command;    ///< newest one; without a stamp of its own, that of its receipt
-  std::optional<GuardWarning> warning;  ///< newest warning
-  std::optional<Planes> planes;         ///< newest ones
-  std::optional<Timestamps> pose;       ///< newest pose of the tool
+  std::shared_ptr<const PlaneSet> planes;  ///< newest ones
+  std::shared_ptr<const ToolBalls> tool;   ///< newest one
+  std::optional<ToolPose> pose;            ///< newest one
+  std::optional<GuardWarning> warning;     ///< newest one
+
+  bool toolIsKnown() const { return tool && belongsTo(*planes, *tool); }  ///< that the planes were computed for
 };
 
 struct PermissionDecision {
@@ -83,6 +90,8 @@ struct PermissionDecision {
 /// Escape needs an `escape_speed`, a warning, a pose and complete planes of a known tool that are not older than
 /// `escape_plane_age` on both clocks, and reasons none of which is kNoMesh, kMeshInvalid, kTimeJump, kDetectorFault or
 /// kNotSwept: with these, the planes are not those of all surfaces. Silence keeps the reasons of the last warning.
-PermissionDecision decidePermission(const PermissionInputs& inputs, const Instant& now, const PermissionLimits& limits);
+/// @param command  newest one; without a stamp of its own, that of its receipt
+PermissionDecision decidePermission(const MotionInputs& inputs, const std::optional<Timestamps>& command,
+                                    const Instant& now, const MotionGuardOptions& options);
 
 }  // namespace sweep_guard_core

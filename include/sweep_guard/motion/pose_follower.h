@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <cstdint>
 #include <optional>
 
 #include "sweep_guard/common/time.h"
@@ -10,35 +9,23 @@
 
 namespace sweep_guard_core {
 
-/// How commanded poses are meant.
-enum class PoseMode : std::uint8_t {
-  kAbsolute,    ///< the tool shall go there; what was held back is caught up with later
-  kIncremental  ///< the tool shall move as the commands do, from where it is; what was held back is lost
-};
-
 /// Follows commanded poses by velocities, so that these can be limited, and keeps the pose that was sent last. That begins
 /// where the tool is, moves by the velocity that was let through, and leads the tool by no more than its PoseLeash allows.
 /// It jumps only back to the tool, or towards it.
 class PoseFollower {
  public:
-  struct Options {
-    PoseMode mode = PoseMode::kAbsolute;
-    double max_speed = 0.25;     ///< [m/s], > 0
-    double max_turn_rate = 1.0;  ///< [rad/s], > 0
-    Duration dead_time{};        ///< as of PoseLeash::Options, as the following
-    Duration time_constant{};
-    double deceleration = 1.0;
-  };
-
+  /// @param incremental  the tool shall move as the commands do, from where it is: what was held back is lost. Otherwise it
+  ///     shall go to the commanded pose, and what was held back is caught up with
   /// @throws InvalidInput  if an option is NaN or out of range
-  explicit PoseFollower(const Options& options);
+  PoseFollower(const PoseLeash::Options& options, bool incremental)
+      : options_(options), incremental_(incremental), leash_(options) {}
 
   bool begun() const { return sent_WT_.has_value(); }
-  /// Begins where the tool is. The next command of kIncremental moves nothing.
+  /// Begins where the tool is. If incremental, the next command moves nothing.
   void begin(const Eigen::Isometry3d& X_WT);
   /// Forgets everything: begin() comes next.
   void end();
-  /// Takes the next command of kIncremental for where the tool is now, as a clutch does.
+  /// If incremental, takes the next command for where the tool is now, as a clutch does.
   void rebase() { command_WT_.reset(); }
 
   /// Takes note of where the tool is. A pose sent that leads it by too much is taken back to what is allowed; while one is
@@ -74,7 +61,8 @@ class PoseFollower {
  private:
   Eigen::Isometry3d goalOf(const Eigen::Isometry3d& command_WT) const;
 
-  const Options options_;
+  const PoseLeash::Options options_;
+  const bool incremental_;
   PoseLeash leash_;
   std::optional<Eigen::Isometry3d> sent_WT_;
   std::optional<Eigen::Isometry3d> tool_WT_;     // newest one

@@ -82,9 +82,8 @@ class ProximityFinder {
   void reset();  ///< forgets earlier deformations and poses: surfaces count as at rest until they move again
 
  private:
-  struct Memory;
   class Search;
-  std::unique_ptr<Memory> memory_;
+  const std::unique_ptr<Search> search_;
 };
 
 }  // namespace sweep_guard_core

@@ -1,19 +1,11 @@
 #pragma once
 
-#include <limits>
 #include <vector>
 
+#include "sweep_guard/kinematics/kinematic_tree.h"
 #include "sweep_guard/prediction/pose_predictor.h"
 
 namespace sweep_guard_core {
-
-/// A joint whose motion is predicted.
-struct PredictableJoint {
-  bool turns = true;                                        ///< its positions are angles [rad]; otherwise lengths [m]
-  bool continuous = false;                                  ///< turns without end: positions a turn apart are the same
-  double lower = -std::numeric_limits<double>::infinity();  ///< limit [rad or m]
-  double upper = std::numeric_limits<double>::infinity();   ///< limit [rad or m], >= lower
-};
 
 /// The joints, predicted for a time after the newest observed positions.
 struct PredictedJoints {
@@ -29,7 +21,7 @@ struct PredictedJoints {
 class JointPredictor {
  public:
   /// @throws InvalidInput as PosePredictor()
-  JointPredictor(const PredictorOptions& options, const std::vector<PredictableJoint>& joints);
+  JointPredictor(const PredictorOptions& options, const std::vector<JointVariable>& joints);
   ~JointPredictor();
   JointPredictor(JointPredictor&&) noexcept;
   JointPredictor& operator=(JointPredictor&&) noexcept;

@@ -24,6 +24,10 @@ struct PredictedPose {
 /// Predicted poses, ascending in time. The path begins at the newest observed pose, which is not part of it.
 using PredictedPath = std::vector<PredictedPose>;
 
+template <typename Space>
+class MotionChannel;
+struct PoseSpace;
+
 struct PredictorOptions {
   std::string predictor = "direct";  ///< one of predictorNames()
   /// Degrees of the polynomials of `polynomial`: x y z of the tool's origin along the axes of W, then rotation about
@@ -67,8 +71,7 @@ class PosePredictor {
   void restart();
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<MotionChannel<PoseSpace>> channel_;
 };
 
 }  // namespace sweep_guard_core

@@ -52,9 +52,7 @@ geometry_msgs::Pose toMsg(const Eigen::Isometry3d& pose);
 /// Converts a mesh [m], in its own frame.
 /// @throws sweep_guard_core::InvalidInput if there are more than `max_triangles` triangles or more than three times
 ///     `max_triangles` vertices, or if TriangleMesh refuses the mesh
-sweep_guard_core::TriangleMesh fromMsg(
-    const shape_msgs::Mesh& mesh, size_t max_triangles,
-    sweep_guard_core::SurfaceKind surface = sweep_guard_core::SurfaceKind::kMayEnclose);
+sweep_guard_core::TriangleMesh fromMsg(const shape_msgs::Mesh& mesh, size_t max_triangles, bool is_sheet = false);
 
 /// Converts a predicted pose, at the time after its stamp at which it was predicted.
 sweep_guard::PredictedPose toMsg(const sweep_guard_core::PredictedPose& pose, sweep_guard_core::Duration age);

@@ -56,9 +56,7 @@ constexpr std::uint16_t kInsideAll = 1U << kMaxPlanes;
 
 /// The first, second and third corners of the triangles of a cluster, as places among the vertices of its blocks: place
 /// i is vertex i % kBlock of block i / kBlock.
-struct ClusterCorners {
-  std::array<std::array<std::uint8_t, kCluster>, 3> places;
-};
+using ClusterCorners = std::array<std::array<std::uint8_t, kCluster>, 3>;
 
 /// Sets of triangles of a cluster: bit i stands for its triangle i, counted from the lowest bit.
 struct TriangleBits {

@@ -9,8 +9,12 @@
 namespace sweep_guard_ros {
 namespace {
 
+using diagnostic_msgs::DiagnosticStatus;
+
 constexpr auto kTickPeriod = std::chrono::milliseconds(50);
 constexpr auto kDiagnosticsPeriod = std::chrono::seconds(1);
+
+double inMebibytes(std::uintmax_t size) { return static_cast<double>(size) / (1U << 20U); }
 
 }  // namespace
 
@@ -27,9 +31,12 @@ BlackBoxNode::BlackBoxNode(const ros::NodeHandle& node, const ros::NodeHandle& p
             response.message = reason;
             return true;
           })),
-      diagnostics_(node, private_node, parameters_, recorder_, warnings()) {
+      updater_(node, private_node, private_node.getNamespace()) {
+  updater_.setHardwareID("none");
+  updater_.add("memory", [this](Status& status) { memory(status); });
+  updater_.add("recordings", [this](Status& status) { recordings(status); });
   ticks_.every(kTickPeriod, [this] { recorder_.tick(); });
-  reports_.every(kDiagnosticsPeriod, [this] { diagnostics_.publish(); });
+  reports_.every(kDiagnosticsPeriod, [this] { updater_.force_update(); });
 }
 
 // Not in the constructor: where one thread cannot be started, the destructor ends the others.
@@ -84,6 +91,37 @@ bool BlackBoxNode::onSave(SaveEvent& event) {
   response.message = problem.empty() ? "the recording follows in " + parameters_.folder.string() : problem;
   ROS_INFO("~save called by %s", sweep_guard_core::printable(event.getCallerName()).c_str());
   return true;
+}
+
+void BlackBoxNode::memory(Status& status) const {
+  const Recorder::Summary summary = recorder_.summary();
+  status.summary(DiagnosticStatus::OK, "listening");
+  if (warnings().getNumPublishers() == 0) {
+    status.summary(DiagnosticStatus::WARN, "no guard publishes " + warnings().getTopic() + ": no contact is noticed");
+  }
+  if (summary.too_large > 0) {
+    status.mergeSummary(DiagnosticStatus::WARN, "messages are larger than half of memory: see the log");
+  }
+  status.addf("time kept [s]", "%.1f", sweep_guard_core::toSeconds(summary.length));
+  status.add("messages", summary.messages);
+  status.addf("size [MiB]", "%.1f", inMebibytes(summary.size));
+  status.add("messages too large", summary.too_large);
+}
+
+void BlackBoxNode::recordings(Status& status) const {
+  const Recorder::Summary summary = recorder_.summary();
+  std::uintmax_t size = 0;
+  for (const auto& [name, bytes] : summary.stored) size += bytes;
+  status.summary(DiagnosticStatus::OK, summary.writing ? "a recording is being written" : "ready");
+  if (summary.failed > 0) status.summary(DiagnosticStatus::WARN, "a recording could not be written: see the log");
+  if (!summary.problem.empty()) status.summary(DiagnosticStatus::ERROR, "nothing can be written: " + summary.problem);
+  status.add("folder", parameters_.folder.string());
+  status.add("recordings there", summary.stored.size());
+  status.addf("size [MiB]", "%.1f", inMebibytes(size));
+  status.add("written", summary.written);
+  status.add("failed", summary.failed);
+  status.add("event that waits", summary.waiting ? nameOf(*summary.waiting) : "none");
+  if (!summary.newest.empty()) status.add("newest", summary.newest);
 }
 
 }  // namespace sweep_guard_ros

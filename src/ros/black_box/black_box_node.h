@@ -1,12 +1,12 @@
 #pragma once
 
+#include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/service_server.h>
 #include <ros/subscriber.h>
 #include <std_srvs/Trigger.h>
 
 #include <vector>
 
-#include "ros/black_box/black_box_diagnostics.h"
 #include "ros/black_box/black_box_parameters.h"
 #include "ros/black_box/recorded_topics.h"
 #include "ros/black_box/recorder.h"
@@ -31,11 +31,14 @@ class BlackBoxNode {
   void start();  ///< begins to listen; once
 
  private:
+  using Status = diagnostic_updater::DiagnosticStatusWrapper;
   using SaveEvent = ros::ServiceEvent<std_srvs::Trigger::Request, std_srvs::Trigger::Response>;
 
   std::vector<ros::Subscriber> subscribe(const ros::NodeHandle& node);
   bool onSave(SaveEvent& event);
   const ros::Subscriber& warnings() const;
+  void memory(Status& status) const;      // what is kept, on /diagnostics
+  void recordings(Status& status) const;  // what was written, and why nothing can be
 
   // Members use only earlier members.
   const BlackBoxParameters parameters_;
@@ -49,7 +52,7 @@ class BlackBoxNode {
   QueueThread refusals_;
   LimitedCalls calls_{saves_, refusals_};
   ros::ServiceServer save_;
-  BlackBoxDiagnostics diagnostics_;
+  diagnostic_updater::Updater updater_;
   TimerThread ticks_;
   TimerThread reports_;
 };

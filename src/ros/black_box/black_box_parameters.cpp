@@ -1,7 +1,5 @@
 #include "ros/black_box/black_box_parameters.h"
 
-#include <ros/names.h>
-
 #include <cstdlib>
 
 #include "common/floating_point.h"
@@ -27,15 +25,6 @@ std::filesystem::path writableFolder(const std::string& instead) {
   if (const char* const home = std::getenv("ROS_HOME")) return home / folder;
   if (const char* const home = std::getenv("HOME")) return std::filesystem::path(home) / ".ros" / folder;
   throw sweep_guard_core::InvalidInput("ROS_HOME and HOME are not set: set " + instead);
-}
-
-// As a node resolves it; a nodelet has not the namespace of its process.
-std::string readGuard(ParameterReader& read, const ros::NodeHandle& private_node) {
-  std::string guard = read.name("guard", "/sweep_guard", "Name of the guard's node, whose outputs are recorded.");
-  std::string error;
-  const std::string scope = ros::names::parentNamespace(private_node.getNamespace());
-  if (ros::names::validate(guard, error)) return ros::names::resolve(scope, guard);
-  throw sweep_guard_core::InvalidInput("parameter guard is no name of a node: " + error);
 }
 
 std::filesystem::path readFolder(ParameterReader& read, const ros::NodeHandle& private_node) {
@@ -78,7 +67,9 @@ void readSizes(ParameterReader& read, BlackBoxParameters& parameters) {
 BlackBoxParameters loadBlackBoxParameters(const ros::NodeHandle& private_node) {
   ParameterReader read(private_node);
   BlackBoxParameters parameters;
-  parameters.guard = readGuard(read, private_node);
+  parameters.guard = read.node("guard", "sweep_guard",
+                               "Name of the guard's node, whose outputs are recorded. Without a slash at its front: in "
+                               "the namespace of this node.");
   parameters.folder = readFolder(read, private_node);
   parameters.window = seconds(read, "window", std::chrono::seconds(30), 1.0, 600.0,
                               "Time before a recording is written that it contains.");

@@ -36,7 +36,7 @@ void writeConfig(const std::filesystem::path& file, const std::string& text) {
 
 Recorder::Recorder(const BlackBoxParameters& parameters)
     : parameters_(parameters),
-      window_({parameters.window, parameters.memory / 2}),
+      window_(parameters.window, parameters.memory / 2),
       trigger_(parameters.trigger),
       config_(parameters.guard, stopping_),
       folder_({parameters.folder, parameters.quota, parameters.min_free}),
@@ -146,7 +146,7 @@ void Recorder::write(const std::string& name, const HeardMessages& messages) {
     writeBag(files.bag, messages);
   });
   ROS_INFO("recorded %zu messages: %s", messages.size(), paths.bag.c_str());
-  std::vector<sweep_guard_core::StoredRecording> stored = folder_.stored();
+  sweep_guard_core::RecordingSizes stored = folder_.stored();
   const sweep_guard_core::Lock lock(mutex_);
   summary_.newest = paths.bag;
   summary_.stored = std::move(stored);
@@ -154,7 +154,7 @@ void Recorder::write(const std::string& name, const HeardMessages& messages) {
 
 void Recorder::inspectFolder() {
   config_.refresh();
-  std::vector<sweep_guard_core::StoredRecording> stored = folder_.stored();
+  sweep_guard_core::RecordingSizes stored = folder_.stored();
   std::size_t size = 0;
   {
     const sweep_guard_core::Lock lock(mutex_);

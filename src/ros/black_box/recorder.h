@@ -14,6 +14,7 @@
 #include "black_box/message_window.h"
 #include "black_box/recording_folder.h"
 #include "black_box/recording_trigger.h"
+#include "common/guarded_by.h"
 #include "ros/black_box/bag_file.h"
 #include "ros/black_box/black_box_parameters.h"
 #include "ros/black_box/guard_config.h"
@@ -21,7 +22,6 @@
 #include "ros/connection/wire.h"
 #include "ros/process/log_throttle.h"
 #include "ros/threads/background_thread.h"
-#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 
@@ -55,9 +55,9 @@ class Recorder {
     bool writing;
     std::size_t written = 0;
     std::size_t failed = 0;
-    std::string newest;                                     ///< path of the newest bag; empty: none since the start
-    std::string problem;                                    ///< why nothing can be written; empty: nothing known
-    std::vector<sweep_guard_core::StoredRecording> stored;  ///< as of the last look at the folder
+    std::string newest;                       ///< path of the newest bag; empty: none since the start
+    std::string problem;                      ///< why nothing can be written; empty: nothing known
+    sweep_guard_core::RecordingSizes stored;  ///< as of the last look at the folder
   };
   Summary summary() const;  ///< any thread
 

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <map>
 
-#include "sweep_guard/common/mutex.h"
+#include "common/guarded_by.h"
 
 namespace sweep_guard_ros {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <algorithm>
+#include <iterator>
+#include <map>
 #include <string>
-#include <vector>
 
 #include "sweep_guard/common/time.h"
 
@@ -16,19 +16,16 @@ class SolePublisher {
 
   /// Takes note of a message, and returns whether it is from the only node.
   bool alone(const std::string& node, sweep_guard_core::SteadyTime received) {
-    const auto gone = [&](const Node& one) { return one.name == node || received - one.newest > silence_; };
-    nodes_.erase(std::remove_if(nodes_.begin(), nodes_.end(), gone), nodes_.end());
-    nodes_.push_back({node, received});
-    return nodes_.size() == 1;
+    newest_[node] = received;
+    for (auto one = newest_.begin(); one != newest_.end();) {
+      one = received - one->second > silence_ ? newest_.erase(one) : std::next(one);
+    }
+    return newest_.size() == 1;
   }
 
  private:
-  struct Node {
-    std::string name;
-    sweep_guard_core::SteadyTime newest;
-  };
   const sweep_guard_core::Duration silence_;
-  std::vector<Node> nodes_;
+  std::map<std::string, sweep_guard_core::SteadyTime> newest_;  // message of each node
 };
 
 }  // namespace sweep_guard_ros

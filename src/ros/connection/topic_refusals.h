@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "common/guarded_by.h"
 #include "ros/threads/gate.h"
-#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 

@@ -3,6 +3,17 @@
 #include <ros/console.h>
 
 namespace sweep_guard_ros {
+namespace {
+
+GuardThreadDependencies dependenciesOf(GuardState& state, sweep_guard_core::QuerySampler& sampler) {
+  GuardThreadDependencies dependencies{state.parameters, state.workpieces, state.monitor,       state.statistics,
+                                       state.queue,      state.warnings,   state.scene,         state.touches,
+                                       sampler,          state.intentions, &state.frame_motions};
+  dependencies.distances = &state.distances;
+  return dependencies;
+}
+
+}  // namespace
 
 Parameters withAvailableDetector(Parameters parameters) {
   parameters.detector = sweep_guard_core::availableDetector(parameters.detector.name, parameters.detector.options);
@@ -16,9 +27,7 @@ Parameters withAvailableDetector(Parameters parameters) {
 GuardRunner::GuardRunner(const ros::NodeHandle& private_node, GuardState& state)
     : state_(state),
       cross_check_(state.parameters, state.monitor),
-      thread_(private_node,
-              {state.parameters, state.workpieces, state.monitor, state.statistics, state.queue, state.warnings,
-               state.scene, state.touches, cross_check_.sampler(), state.intentions, &state.frame_motions}) {}
+      thread_(private_node, dependenciesOf(state, cross_check_.sampler())) {}
 
 void GuardRunner::start() {
   thread_.start(state_.supervisor);

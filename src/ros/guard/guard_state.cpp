@@ -26,6 +26,7 @@ GuardState::GuardState(const ros::NodeHandle& node, const ros::NodeHandle& priva
         intentions.follow(snapshot);
         allowed.follow(snapshot);
       }) {
+  monitor.setTool(*parameters.initial().tool);
   on_fault_ = [this] { warnings.publishIfChanged(); };
   on_failure_ = [this](const char* what, const ThreadTraits& thread) {
     monitor.failed(sweep_guard_core::kDetectorFault, what, std::chrono::steady_clock::now(), thread.loses_latched);

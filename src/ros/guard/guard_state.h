@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "guard/intention_store.h"
+#include "guard/tool_distances.h"
 #include "guard/workpiece_store.h"
 #include "monitor/sweep_statistics.h"
 #include "monitor/work_queue.h"
@@ -45,6 +46,7 @@ class GuardState {
   sweep_guard_core::AllowedMatches allowed;
   sweep_guard_core::WorkpieceStore workpieces;
   sweep_guard_core::FrameMotionStore frame_motions;
+  sweep_guard_core::ToolDistances distances;
 };
 
 }  // namespace sweep_guard_ros

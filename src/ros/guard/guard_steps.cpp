@@ -69,51 +69,30 @@ Duration ageOf(const Timestamps& pose, const Instant& at) { return std::max(age(
 ToolShapes::ToolShapes(const Parameters& parameters)
     : pieces(sweep_guard_core::interpenetrationFinders(*parameters.bodies)), surface(surfaceMsg(parameters)) {}
 
-ToolPublishers::ToolPublishers(const ros::NodeHandle& private_node, const LiveParameters& parameters,
-                               const sweep_guard_core::WarningMonitor& monitor)
-    : proximity(private_node, parameters, monitor),
-      interaction(private_node, parameters, monitor),
-      bodies(private_node, parameters) {}
-
-void ToolPublishers::setTool(const Parameters& parameters, ToolShapes& shapes) {
-  proximity.setTool(*parameters.tool);
-  interaction.exchange(shapes.pieces);
-  bodies.setTool(*parameters.bodies, shapes.surface);
-}
-
-void ToolPublishers::reset() {
-  proximity.reset();
-  interaction.reset();
-  bodies.reset();
-}
-
 GuardSteps::GuardSteps(const ros::NodeHandle& private_node, const GuardThreadDependencies& dependencies)
     : dependencies_(dependencies),
       results_(private_node, dependencies.parameters),
-      publishers_(private_node, dependencies.parameters, dependencies.monitor),
+      proximity_(private_node, dependencies.parameters, dependencies.monitor),
+      interaction_(private_node, dependencies.parameters, dependencies.monitor),
+      bodies_(private_node, dependencies.parameters),
       guard_(guardOf(dependencies.parameters.initial(), firstDetector(dependencies))),
       acknowledgements_(dependencies.parameters, dependencies.monitor, dependencies.sampler, guard_) {}
 
-GuardSteps::Done GuardSteps::take(sweep_guard_core::QueuedPose& queued, const sweep_guard_core::QueuedPose* next) {
-  if (!dependencies_.monitor.isToBeSwept(queued.checkpoint)) return Done::kNothing;
+void GuardSteps::setTool(const Parameters& parameters, ToolShapes& shapes) {
+  proximity_.setTool(*parameters.tool);
+  interaction_.exchange(shapes.pieces);
+  bodies_.setTool(*parameters.bodies, shapes.surface);
+}
+
+GuardSteps::Taken GuardSteps::take(sweep_guard_core::QueuedPose& queued, const sweep_guard_core::QueuedPose* next) {
+  if (!dependencies_.monitor.isToBeSwept(queued.checkpoint)) return Taken::kOutdated;
   if (!queued.checkpoint.continues(checkpoint_)) resetMotion();
   checkpoint_ = queued.checkpoint;
   const bool is_passed = queued.pose.anew || (next != nullptr && knowsAllFramesOf(queued, *next));
   frames_known_to_ = follow(queued.pose);
-  if (is_passed) {
-    pass(queued.pose);
-    return Done::kPassed;
-  }
-  for (const std::string& frame : placed_anew_.frames) queued.pose.drifts.try_emplace(frame);
-  try {
-    sweep(queued);
-  } catch (...) {
-    guard_.takeBack();
-    throw;
-  }
-  placed_anew_ = {};
-  prediction_due_ = true;
-  return Done::kSwept;
+  if (!is_passed) return Taken::kToSweep;
+  pass(queued.pose);
+  return Taken::kPassed;
 }
 
 // Returns the time up to which all frames that are followed are known, but for those that are silent: at most that of the pose.
@@ -141,39 +120,61 @@ void GuardSteps::pass(const sweep_guard_core::PoseWithFrames& pose) {
   if (pose.anew) {
     placed_anew_.any = true;
     placed_anew_.frames.insert(pose.anew->frames.begin(), pose.anew->frames.end());
-    if (pose.anew->tool) publishers_.bodies.reset();
-    return publishers_.interaction.reset();
+    if (pose.anew->tool) bodies_.reset();
+    return interaction_.reset();
   }
-  publishers_.bodies.moved(pose);
+  bodies_.moved(pose);
   passed_.push_back(pose.received);
   dependencies_.scene.passed(pose);
 }
 
-void GuardSteps::sweep(const sweep_guard_core::QueuedPose& queued) {
-  const sweep_guard_core::PoseWithFrames& pose = queued.pose;
-  const SteadyTime begin = std::chrono::steady_clock::now();
-  const auto report = reports_.take();
-  const sweep_guard_core::Workpieces workpieces = dependencies_.workpieces.snapshot();
-  beginSweep(queued, workpieces);
-  guard_.sweep(pose, workpieces, *report);
-  const SteadyTime end = std::chrono::steady_clock::now();
-  triangles_are_new_ = !haveSameTriangles(workpieces, predicted_with_);
-  swept_ = queued;
-  warn(*report, queued);
+void GuardSteps::sweep(sweep_guard_core::QueuedPose& queued) {
+  for (const std::string& frame : placed_anew_.frames) queued.pose.drifts.try_emplace(frame);
+  try {
+    const SteadyTime begin = std::chrono::steady_clock::now();
+    const auto report = reports_.take();
+    const sweep_guard_core::Workpieces workpieces = dependencies_.workpieces.snapshot();
+    beginSweep(queued, workpieces);
+    guard_.sweep(queued.pose, workpieces, *report);
+    const SteadyTime end = std::chrono::steady_clock::now();
+    triangles_are_new_ = !haveSameTriangles(workpieces, predicted_with_);
+    swept_ = queued;
+    warn(*report, queued);
 
-  const SteadyTime warned = std::chrono::steady_clock::now();
-  for (const SteadyTime received : passed_) dependencies_.statistics.swept(warned - received, {});
-  passed_.clear();
-  dependencies_.statistics.swept(warned - pose.received, end - begin);
+    const SteadyTime warned = std::chrono::steady_clock::now();
+    for (const SteadyTime received : passed_) dependencies_.statistics.swept(warned - received, {});
+    passed_.clear();
+    dependencies_.statistics.swept(warned - queued.pose.received, end - begin);
+    publish(report, queued, workpieces);
+  } catch (...) {
+    guard_.takeBack();
+    throw;
+  }
+  placed_anew_ = {};
+  prediction_due_ = true;
+}
+
+void GuardSteps::publish(const std::shared_ptr<sweep_guard_core::SweepReport>& report,
+                         const sweep_guard_core::QueuedPose& queued, const sweep_guard_core::Workpieces& workpieces) {
+  const sweep_guard_core::PoseWithFrames& pose = queued.pose;
   reportFailures(report->failures);
   dependencies_.scene.swept(pose, report);
   if (dependencies_.monitor.counts(queued.checkpoint)) {  // otherwise time has jumped: nobody may move by these
-    top_->run([&] { publishers_.proximity.swept(pose, workpieces, *report, guard_); });
-    top_->run([&] { publishers_.interaction.swept(pose, workpieces, *report); });
-    top_->run([&] { publishers_.bodies.moved(pose); });
+    top_->run([&] { proximity_.swept(pose, workpieces, *report, guard_); });
+    top_->run([&] { interaction_.swept(pose, workpieces, *report); });
+    top_->run([&] { bodies_.moved(pose); });
   }
   top_->run([&] { dependencies_.touches.swept(*report, workpieces); });
+  top_->run([&] { measureDistances(pose, workpieces); });
   forgetFrames();
+}
+
+void GuardSteps::measureDistances(const sweep_guard_core::PoseWithFrames& pose,
+                                  const sweep_guard_core::Workpieces& workpieces) {
+  if (dependencies_.distances == nullptr) return;
+  measured_.clear();
+  for (size_t i = 0; i < pose.bodies.size(); ++i) measured_.push_back(&guard_.tool(i));
+  dependencies_.distances->add(pose, workpieces, std::chrono::steady_clock::now(), measured_);
 }
 
 void GuardSteps::sweepOn() {
@@ -185,7 +186,7 @@ void GuardSteps::sweepOn() {
   const sweep_guard_core::Workpieces workpieces = dependencies_.workpieces.snapshot();
   beginSweep(*swept_, workpieces);
   try {
-    guard_.sweepOn(workpieces, *report);
+    guard_.sweep(swept_->pose, workpieces, *report, /*arrived=*/false);
   } catch (...) {
     guard_.takeBack();
     throw;
@@ -263,7 +264,7 @@ void GuardSteps::endPrediction(const RunningPrediction& running) {
   if (acknowledgements_.endWhereFar(predicted_with_, predictedFrom(pose, checkpoint_.epoch)))
     dependencies_.warnings.publishIfChanged();
   dependencies_.scene.predicted(pose, running.prediction);
-  publishers_.bodies.predicted(pose, prediction);
+  bodies_.predicted(pose, prediction);
 }
 
 std::string GuardSteps::acknowledge(const std::string& id) {
@@ -281,7 +282,9 @@ void GuardSteps::forget() {
 
 void GuardSteps::resetMotion() {
   guard_.reset();
-  publishers_.reset();
+  proximity_.reset();
+  interaction_.reset();
+  bodies_.reset();
   passed_.clear();
   placed_anew_ = {};
 }

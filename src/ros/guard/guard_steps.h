@@ -12,6 +12,7 @@
 #include "guard/cross_check.h"
 #include "guard/intention_store.h"
 #include "guard/prediction_pace.h"
+#include "guard/tool_distances.h"
 #include "guard/workpiece_store.h"
 #include "monitor/sweep_statistics.h"
 #include "monitor/work_queue.h"
@@ -42,22 +43,6 @@ struct ToolShapes {
   boost::shared_ptr<sweep_guard::ToolSurface> surface;
 };
 
-/// Publishes what is known of the tool beside warnings, at every swept pose. One thread.
-struct ToolPublishers {
-  ToolPublishers(const ros::NodeHandle& private_node, const LiveParameters& parameters,
-                 const sweep_guard_core::WarningMonitor& monitor);
-
-  /// Exchanges the tool.
-  /// @param shapes  of the same parameters; those before when it returns
-  void setTool(const Parameters& parameters, ToolShapes& shapes);
-
-  void reset();  ///< forgets all motion
-
-  ProximityPublisher proximity;
-  InteractionPublisher interaction;
-  BodiesPublisher bodies;
-};
-
 struct GuardThreadDependencies {
   LiveParameters& parameters;
   const sweep_guard_core::WorkpieceStore& workpieces;
@@ -75,6 +60,7 @@ struct GuardThreadDependencies {
   std::function<ToolShapes(const Parameters&)> make_shapes = [](const Parameters& wanted) {
     return ToolShapes(wanted);
   };
+  sweep_guard_core::ToolDistances* distances = nullptr;  ///< null: nobody asks for them
 };
 
 /// A prediction under way, see GuardSteps::beginPrediction().
@@ -96,16 +82,20 @@ class GuardSteps {
   GuardSteps(const ros::NodeHandle& private_node, const GuardThreadDependencies& dependencies);
 
   sweep_guard_core::Guard& guard() { return guard_; }
-  ToolPublishers& publishers() { return publishers_; }
+  /// Exchanges the tool that is published.
+  /// @param shapes  of the same parameters; those before when it returns
+  void setTool(const Parameters& parameters, ToolShapes& shapes);
 
   /// Sets what catches failures of the publishers: they do not keep a pose from being swept.
   void setTop(ThreadTop& top) { top_ = &top; }
 
-  enum class Done { kNothing, kPassed, kSwept };
-  /// Sweeps to a pose, or passes it: it is then part of the motion to the next one. Does nothing with a pose from before a
-  /// restart. What throws leaves the pose to be taken again.
+  enum class Taken { kOutdated, kPassed, kToSweep };
+  /// Takes a pose, unless it is from before a restart. Passes it if that is enough: it is then part of the motion to the next
+  /// one. If not, sweep() comes next. What throws in either leaves the pose to be taken again.
   /// @param next  pose that waits behind it; null: none does
-  Done take(sweep_guard_core::QueuedPose& queued, const sweep_guard_core::QueuedPose* next);
+  Taken take(sweep_guard_core::QueuedPose& queued, const sweep_guard_core::QueuedPose* next);
+  /// Sweeps to the pose that was taken.
+  void sweep(sweep_guard_core::QueuedPose& queued);
   /// Sweeps against what is known further of frames, up to the newest pose. If it fails, the next sweep makes up for it.
   void sweepOn();
 
@@ -136,14 +126,18 @@ class GuardSteps {
   sweep_guard_core::Time follow(sweep_guard_core::PoseWithFrames& pose);
   void forgetFrames();
   void pass(const sweep_guard_core::PoseWithFrames& pose);
-  void sweep(const sweep_guard_core::QueuedPose& queued);
   void beginSweep(const sweep_guard_core::QueuedPose& queued, const sweep_guard_core::Workpieces& workpieces);
   void warn(const sweep_guard_core::SweepReport& report, const sweep_guard_core::QueuedPose& queued);
+  void publish(const std::shared_ptr<sweep_guard_core::SweepReport>& report, const sweep_guard_core::QueuedPose& queued,
+               const sweep_guard_core::Workpieces& workpieces);
+  void measureDistances(const sweep_guard_core::PoseWithFrames& pose, const sweep_guard_core::Workpieces& workpieces);
   void reportFailures(const std::vector<sweep_guard_core::SweepFailure>& failures);
 
   const GuardThreadDependencies dependencies_;
   const ResultPublisher results_;
-  ToolPublishers publishers_;
+  ProximityPublisher proximity_;  // these publish what is known of the tool beside warnings, at every swept pose
+  InteractionPublisher interaction_;
+  BodiesPublisher bodies_;
   sweep_guard_core::Guard guard_;
   Acknowledgements acknowledgements_;
   ThreadTop* top_ = nullptr;
@@ -159,7 +153,8 @@ class GuardSteps {
     std::set<std::string> frames = {};
   } placed_anew_;                                                 // since then
   std::shared_ptr<const sweep_guard_core::FrameMotions> frames_;  // at the newest sweep or prediction
-  sweep_guard_core::Time frames_known_to_;  // all that are followed, at the newest sweep; at most its pose
+  sweep_guard_core::Time frames_known_to_;               // all that are followed, at the newest sweep; at most its pose
+  std::vector<const sweep_guard_core::Tool*> measured_;  // by measureDistances(): keeps its memory
   sweep_guard_core::Pool<sweep_guard_core::SweepReport> reports_;
   sweep_guard_core::Pool<sweep_guard_core::Prediction> predictions_;
   LogThrottle log_;

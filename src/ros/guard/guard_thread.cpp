@@ -30,7 +30,7 @@ GuardThread::GuardThread(const ros::NodeHandle& private_node, const GuardThreadD
 void GuardThread::start(Supervisor& supervisor) {
   top_ = &supervisor.add({"guard", sweep_guard_core::Stage::kSweep});
   steps_.setTop(*top_);
-  thread_ = std::thread([this] { run(); });
+  thread_ = std::thread(&GuardThread::run, this);
 }
 
 void GuardThread::stop() {
@@ -51,9 +51,10 @@ void GuardThread::apply(const std::shared_ptr<const Parameters>& next) {
   const auto exchange = [&, tested = change.detector != nullptr] {
     requireUnchanged(*before);
     steps_.guard().exchange(change);
-    if (shapes) steps_.publishers().setTool(*next, *shapes);
+    if (shapes) steps_.setTool(*next, *shapes);
     if (tested) dependencies_.monitor.detectorTested({});
     dependencies_.monitor.setLimits(next->limits);
+    dependencies_.monitor.setTool(*next->tool);
     dependencies_.statistics.setCycle(next->guard.cycle);
     dependencies_.parameters.set(next);
   };
@@ -114,7 +115,8 @@ void GuardThread::exchangeTool(const std::shared_ptr<const Parameters>& before,
     steps_.forget();
     steps_.guard().exchange(change);
     dependencies_.intentions.clear();
-    steps_.publishers().setTool(*next, shapes);
+    steps_.setTool(*next, shapes);
+    dependencies_.monitor.setTool(*next->tool);
     dependencies_.scene.setTool(*next->bodies);
   };
   runInTime(exchange, "the tool is as before");
@@ -153,77 +155,70 @@ void GuardThread::setPriority() const {
   if (!refusal.empty()) ROS_WARN("%s", refusal.c_str());
 }
 
+// Sweeps the poses, also those that are taken during a prediction, until there is other work, or it is too early for the next
+// prediction. No pose is left out: what the tool met on the way to it would be, too. One that fails is tried again, and the others
+// wait, so nothing is clear meanwhile.
 void GuardThread::run() {
   top_->enter();
   top_->attempt([this] { setPriority(); });
-  bool more = true;
-  while (more) {
-    try {
-      more = workOnce();
-    } catch (...) {
-      top_->caught();
-    }
+  while (takeWork()) {
+    do {
+      while (next_ < work_.poses.size()) {
+        bool taken = false;
+        {
+          const ThreadTop::Piece piece(*top_);
+          taken = takeNext();
+        }
+        if (taken) {
+          predictIfDue();
+        } else if (dependencies_.queue.stopped()) {
+          return;
+        } else {
+          pauseAfterFailure();
+        }
+      }
+      dependencies_.queue.swept({});
+    } while (predictIfDue() && (next_ < work_.poses.size() || !dependencies_.queue.hasWork()));
   }
 }
 
-bool GuardThread::workOnce() {
+// Waits for work, or until a prediction is due. Runs what is not a pose. Returns false after stop().
+bool GuardThread::takeWork() {
   next_ = 0;
-  if (!dependencies_.queue.take(work_, latestPrediction())) return false;
+  try {
+    if (!dependencies_.queue.take(work_, latestPrediction())) return false;
+  } catch (...) {  // no memory for the poses, which stay in the queue
+    top_->caught();
+    work_ = {};
+  }
   for (const auto& task : work_.tasks) top_->run(task);
   if (work_.frames_moved && work_.poses.empty()) top_->run([this] { steps_.sweepOn(); });
-  do {  // until there is other work, or it is too early for the next prediction
-    if (!sweepPoses()) return false;
-    if (!timeToPredict()) return true;
-    top_->run([this] { predict(); });
-  } while (next_ < work_.poses.size() || !dependencies_.queue.hasWork());
   return true;
 }
 
-// Also those that were taken during a prediction. No pose is left out: what the tool met on the way to it would be, too. One that
-// fails is tried again, and the others wait, so nothing is clear meanwhile. Tasks run between the tries: a reset drops the pose, a
-// new parameter may end the failure. Returns false after stop().
-bool GuardThread::sweepPoses() {
-  while (next_ < work_.poses.size()) {
-    if (!sweepNext()) {
-      if (dependencies_.queue.stopped()) return false;
-      std::this_thread::sleep_for(kPauseAfterFailure);
-      for (const auto& task : dependencies_.queue.takeTasks()) top_->run(task);
-    } else if (timeToPredict()) {
-      top_->run([this] { predict(); });
-    }
-  }
-  dependencies_.queue.swept({});
-  return true;
+// Tasks run between two tries: a reset drops the pose, a new parameter may end the failure.
+void GuardThread::pauseAfterFailure() {
+  std::this_thread::sleep_for(kPauseAfterFailure);
+  for (const auto& task : dependencies_.queue.takeTasks()) top_->run(task);
 }
 
-// Returns false if that failed.
-bool GuardThread::sweepNext() {
+// Sweeps to the next pose, or passes it. Returns false if that failed: it is the next one still.
+bool GuardThread::takeNext() {
   try {
-    const ThreadTop::Piece piece(*top_);
-    takeNext();
+    const sweep_guard_core::InStage stage(sweep_guard_core::Stage::kSweep);
+    sweep_guard_core::QueuedPose& pose = work_.poses[next_];
+    const sweep_guard_core::QueuedPose* const next = next_ + 1 < work_.poses.size() ? &pose + 1 : nullptr;
+    const GuardSteps::Taken taken = steps_.take(pose, next);
+    if (taken == GuardSteps::Taken::kToSweep) steps_.sweep(pose);
+    ++next_;
+    if (taken != GuardSteps::Taken::kOutdated) pace_.received(pose.pose.received);
+    if (taken == GuardSteps::Taken::kToSweep)
+      dependencies_.queue.swept(next != nullptr ? std::optional(next->pose.received) : std::nullopt);
     return true;
   } catch (...) {
     top_->caught();
     return false;
   }
-}
-
-void GuardThread::takeNext() {
-  const sweep_guard_core::InStage stage(sweep_guard_core::Stage::kSweep);
-  sweep_guard_core::QueuedPose& pose = work_.poses[next_];
-  const sweep_guard_core::QueuedPose* const next = next_ + 1 < work_.poses.size() ? &pose + 1 : nullptr;
-  const GuardSteps::Done done = steps_.take(pose, next);
-  ++next_;
-  if (done == GuardSteps::Done::kNothing) return;
-  pace_.received(pose.pose.received);
-  if (done == GuardSteps::Done::kPassed) return;
-  dependencies_.queue.swept(next != nullptr ? std::optional(next->pose.received) : std::nullopt);
-}
-
-bool GuardThread::takeMore() {
-  next_ = 0;
-  dependencies_.queue.takePoses(work_.poses);
-  return !work_.poses.empty();
 }
 
 // Sweeps of queued poses go first, but delay the prediction by at most a cycle. It begins at a swept pose. One with other triangles
@@ -233,6 +228,13 @@ bool GuardThread::timeToPredict() const {
   const SteadyTime at = std::chrono::steady_clock::now();
   if (at - predicted_at_ >= dependencies_.parameters.get()->guard.cycle) return true;
   return (steps_.trianglesAreNew() || at >= pace_.due()) && !dependencies_.queue.hasPoses();
+}
+
+// Returns whether one was due.
+bool GuardThread::predictIfDue() {
+  if (!timeToPredict()) return false;
+  top_->run([this] { predict(); });
+  return true;
 }
 
 // A prediction rather begins at the next pose, which is fresh, but waits for it no longer than this.
@@ -260,18 +262,25 @@ void GuardThread::predict() {
   steps_.endPrediction(running);
 }
 
-// Sweeps the poses that wait. Returns false if one failed. It and those after it wait.
-bool GuardThread::sweepWaiting() {
+// Returns whether there are more poses. Without memory for them they stay in the queue.
+bool GuardThread::takeMore() {
+  next_ = 0;
   try {
-    while (std::chrono::steady_clock::now() - predicted_at_ < kMaxInterrupted) {
-      if (next_ == work_.poses.size() && !takeMore()) return true;
-      takeNext();
-    }
-    return true;
+    dependencies_.queue.takePoses(work_.poses);
   } catch (...) {
     top_->caught();
-    return false;
+    work_.poses.clear();
   }
+  return !work_.poses.empty();
+}
+
+// Sweeps the poses that wait. Returns false if one failed. It and those after it wait.
+bool GuardThread::sweepWaiting() {
+  while (std::chrono::steady_clock::now() - predicted_at_ < kMaxInterrupted) {
+    if (next_ == work_.poses.size() && !takeMore()) return true;
+    if (!takeNext()) return false;
+  }
+  return true;
 }
 
 }  // namespace sweep_guard_ros

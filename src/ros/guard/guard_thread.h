@@ -65,14 +65,14 @@ class GuardThread {
   void runInTime(const std::function<void()>& task, const std::string& otherwise);
   void setPriority() const;
   void run();
-  bool workOnce();
-  bool sweepPoses();
-  bool sweepNext();
-  void takeNext();
-  bool takeMore();
+  bool takeWork();
+  bool takeNext();
+  void pauseAfterFailure();
   bool timeToPredict() const;
+  bool predictIfDue();
   std::optional<sweep_guard_core::SteadyTime> latestPrediction() const;
   void predict();
+  bool takeMore();
   bool sweepWaiting();
 
   const GuardThreadDependencies dependencies_;

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "common/guarded_by.h"
 #include "ros/input/frames.h"
-#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/common/stamped_pose.h"
 
 namespace sweep_guard_ros {

@@ -3,23 +3,14 @@
 #include <geometry_msgs/WrenchStamped.h>
 #include <ros/node_handle.h>
 
+#include <optional>
 #include <string>
 
-#include "ros/haptics/device_axes.h"
+#include "common/guarded_by.h"
 #include "ros/haptics/haptics_parameters.h"
 #include "ros/haptics/tick_record.h"
-#include "ros/motion/guard_input.h"
-#include "ros/motion/tool_pose_input.h"
-#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
-
-struct ForceCycleSources {
-  const GuardInput& guard;
-  const ToolPoseInput& tool;
-  const ToolPoseInput* device;  ///< null: the pose of the tool stands for it
-  const DeviceAxes& axes;
-};
 
 /// Computes the force of the surfaces at each tick and publishes it on `servo_cf`: zero where nothing is known. Outside
 /// roscpp, a tick waits for no thread without its priority and allocates nothing, except a message while a nodelet
@@ -29,9 +20,12 @@ class ForceCycle {
   static constexpr sweep_guard_core::Duration kPeriod = std::chrono::milliseconds(1);
 
   /// @throws sweep_guard_core::InvalidInput if the parameters do not fit together
-  ForceCycle(ros::NodeHandle node, const HapticsParameters& parameters, const ForceCycleSources& sources);
+  ForceCycle(ros::NodeHandle node, const HapticsParameters& parameters);
 
-  void tick();  ///< to be called each kPeriod
+  /// To be called each kPeriod.
+  /// @param hand  what moves the device; empty: it is not known
+  void tick(const sweep_guard_core::ForceInputs& inputs,
+            const std::optional<sweep_guard_core::PassiveDevice::Hand>& hand, const sweep_guard_core::Instant& at);
   void stop();  ///< publishes zero, and nothing after it
 
   struct State {
@@ -48,12 +42,9 @@ class ForceCycle {
   std::uint32_t subscribers() const { return publisher_.getNumSubscribers(); }
 
  private:
-  sweep_guard_core::DeviceWrench wrenchAt(const sweep_guard_core::Instant& at) REQUIRES(mutex_);
-  void observe(const sweep_guard_core::ForceInputs& inputs, const sweep_guard_core::Instant& at) REQUIRES(mutex_);
   void publish(const sweep_guard_core::DeviceWrench& wrench) REQUIRES(mutex_);
 
   const HapticsParameters& parameters_;
-  const ForceCycleSources sources_;
   TickRecord ticks_;
   mutable sweep_guard_core::Mutex mutex_;  // of what follows
   sweep_guard_core::ForceRenderer renderer_ GUARDED_BY(mutex_);

@@ -1,11 +1,17 @@
 #pragma once
 
+#include <diagnostic_updater/diagnostic_updater.h>
+
 #include <optional>
 
 #include "ros/connection/master_watch.h"
+#include "ros/haptics/device_axes.h"
 #include "ros/haptics/force_cycle.h"
-#include "ros/haptics/haptics_diagnostics.h"
 #include "ros/input/frames.h"
+#include "ros/motion/guard_input.h"
+#include "ros/motion/input_diagnostics.h"
+#include "ros/motion/tool_pose_input.h"
+#include "ros/process/log_throttle.h"
 #include "ros/threads/real_time_request.h"
 #include "ros/threads/supervisor.h"
 #include "ros/threads/timer_thread.h"
@@ -25,7 +31,12 @@ class HapticsNode {
   void start();  ///< begins to send; once
 
  private:
-  const ToolPoseInput* device() const { return device_pose_ ? &*device_pose_ : nullptr; }
+  // Lines of /diagnostics: what force is sent and why, what the delay takes of the stiffness, and the energy at the device;
+  // the jitter of the output and who else publishes there.
+  void force(DiagnosticsLine& line);
+  void output(DiagnosticsLine& line) const;
+
+  void tick();  // of `forces_`; allocates nothing
 
   // Members use only earlier members.
   const HapticsParameters parameters_;
@@ -37,9 +48,10 @@ class HapticsNode {
   std::optional<ToolPoseInput> device_pose_;
   DeviceAxes axes_;
   RealTimeRequest priority_;
-  std::optional<ForceCycle> cycle_;
-  std::optional<OutputWatch> output_watch_;
-  std::optional<HapticsDiagnostics> diagnostics_;
+  ForceCycle cycle_;
+  OutputWatch output_watch_;
+  LogThrottle log_;
+  diagnostic_updater::Updater updater_;
   TimerThread forces_;
   TimerThread reports_;
 };

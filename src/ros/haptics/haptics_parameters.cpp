@@ -9,11 +9,10 @@ namespace {
 using sweep_guard_core::ForceOptions;
 
 void readSources(ParameterReader& read, HapticsParameters& parameters) {
-  const sweep_guard_core::Duration silence = parameters.force.limits.warning_silence;
   PoseSource& tool = parameters.tool;
   tool = readPoseSource(read);
-  tool.silence = silence;
-  parameters.guard = {readGuard(read), tool.fixed_frame, tool.frame, silence};
+  tool.silence = parameters.force.warning_silence;
+  parameters.guard = readGuard(read);
   parameters.device_frame = read.optionalName(
       "device_frame", "tf frame that does not move with the device, whose axes its force has. Empty: fixed_frame.");
   if (parameters.device_frame.empty()) parameters.device_frame = tool.fixed_frame;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "ros/motion/guard_source.h"
+#include "ros/motion/pose_source.h"
 #include "ros/parameters/parameters.h"
 #include "sweep_guard/haptics/force_renderer.h"
 #include "sweep_guard/haptics/passive_device.h"
@@ -15,12 +15,12 @@ namespace sweep_guard_ros {
 /// Holds all parameters of haptics, checked. loadHapticsParameters() defines key, unit, range, default and effect of each;
 /// doc/haptics.md and config/haptics.yaml are generated from them.
 struct HapticsParameters {
-  GuardSource guard;
+  std::string guard;  ///< name of its node
   PoseSource tool;
   std::string device_frame;
   bool device_tells_pose;  ///< on `device_pose`; false: the pose of the tool stands for it
   sweep_guard_core::ForceOptions force;
-  sweep_guard_core::PassiveDevice::Options hand;
+  sweep_guard_core::HandLimits hand;
   int realtime_priority;                 ///< that the thread that sends asks for; 0: none
   ParameterReader::Settings settings;    ///< as read
   std::vector<ParameterInfo> described;  ///< always the same keys in the same order

@@ -7,8 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "sweep_guard/common/mutex.h"
-#include "sweep_guard/common/quantile.h"
+#include "common/guarded_by.h"
 #include "sweep_guard/common/time.h"
 
 namespace sweep_guard_ros {
@@ -16,11 +15,6 @@ namespace sweep_guard_ros {
 /// Keeps by how much the newest intervals between ticks differed from the period. Any thread.
 class TickRecord {
  public:
-  struct Summary {
-    double p99 = 0.0;      ///< [s]
-    double largest = 0.0;  ///< [s]
-  };
-
   explicit TickRecord(sweep_guard_core::Duration period) : period_(period) {}
 
   void tick(sweep_guard_core::SteadyTime now) {
@@ -29,15 +23,14 @@ class TickRecord {
     ticked_ = now;
   }
 
-  Summary summary() const {
+  /// Returns these differences [s], at least one.
+  std::vector<double> jitter() const {
     std::vector<double> jitter;
     jitter.reserve(kTicks);
-    {
-      const sweep_guard_core::Lock lock(mutex_);
-      jitter.assign(jitter_.begin(), jitter_.begin() + static_cast<std::ptrdiff_t>(std::min(count_, kTicks)));
-    }
-    if (jitter.empty()) return {};
-    return {sweep_guard_core::quantile(jitter, 0.99), sweep_guard_core::quantile(jitter, 1.0)};
+    const sweep_guard_core::Lock lock(mutex_);
+    jitter.assign(jitter_.begin(),
+                  jitter_.begin() + static_cast<std::ptrdiff_t>(std::clamp<size_t>(count_, 1, kTicks)));
+    return jitter;
   }
 
  private:

@@ -9,10 +9,12 @@
 namespace sweep_guard_ros {
 namespace {
 
+using sweep_guard_core::printable;
 using sweep_guard_core::Time;
 
 constexpr double kMaxDeviation = 5e-4;  // [m], of a body from a Motion
 constexpr size_t kMostParts = 100;      // of a jump
+constexpr size_t kMostMissing = 12;     // joints that a text lists
 
 }  // namespace
 
@@ -23,8 +25,9 @@ ArticulatedTool::ArticulatedTool(const LiveParameters& live, const Parameters& p
       model_(parameters.robot),
       root_moves_(parameters.tool_source != ToolSource::kJointStates),
       root_timeout_(parameters.joint_timeout),
-      names_(model_->robot.tree),
-      timeline_(model_->robot.tree, fixedPositions(model_->robot.tree, parameters.fixed_joints), root_moves_) {
+      fixed_(fixedPositions(model_->robot.tree, parameters.fixed_joints)),
+      names_(model_->robot.tree, fixed_, parameters.joint_names),
+      timeline_(model_->robot.tree, fixed_, root_moves_) {
   for (const auto& variable : model_->robot.tree.variables()) {
     const auto given = parameters.joint_timeouts.find(variable.name);
     timeouts_.push_back(given == parameters.joint_timeouts.end() ? parameters.joint_timeout : given->second);
@@ -34,12 +37,13 @@ ArticulatedTool::ArticulatedTool(const LiveParameters& live, const Parameters& p
 void ArticulatedTool::add(const std::string& publisher, const sensor_msgs::JointState& positions) {
   names_.find(positions, named_);
   timeline_.add(publisher, fromMsg(positions.header.stamp), named_);
+  noteForeign(positions);
 }
 
 void ArticulatedTool::add(Time stamp, const Eigen::Isometry3d& X_WT) { timeline_.addRoot(stamp, X_WT * model_->X_TR); }
 
 bool ArticulatedTool::next(const std::function<std::optional<Eigen::Isometry3d>(Time)>& X_WT,
-                           std::vector<Pose>& poses) {
+                           std::vector<sweep_guard_core::PoseWithFrames>& poses) {
   poses.clear();
   const auto stamp = next_stamp_ ? std::exchange(next_stamp_, {}) : timeline_.next(next_);
   if (!stamp) return false;
@@ -68,28 +72,67 @@ bool ArticulatedTool::next(const std::function<std::optional<Eigen::Isometry3d>(
   return true;
 }
 
-void ArticulatedTool::place(Time stamp, const sweep_guard_core::RobotState& state, std::vector<Pose>& poses) {
+void ArticulatedTool::place(Time stamp, const sweep_guard_core::RobotState& state,
+                            std::vector<sweep_guard_core::PoseWithFrames>& poses) {
   bodyPoses(model_->robot.tree, model_->robot.bodies, state, X_WB_);
-  Pose& pose = poses.emplace_back();
+  sweep_guard_core::PoseWithFrames& pose = poses.emplace_back();
   pose.stamp = stamp;
   pose.X_WT = state.X_WR * model_->X_TR.inverse();
+  pose.bodies.clear();
   for (const Eigen::Isometry3d& X_WB : X_WB_) pose.bodies.push_back({X_WB});
   pose.state = state;
 }
 
-std::string ArticulatedTool::silence(Time now) const {
-  const auto tell = [now](const std::string& what, std::optional<Time> newest, sweep_guard_core::Duration timeout) {
-    if (!newest) return what + " has not been published yet";
-    if (now - *newest <= timeout) return std::string();
-    return what + " has been silent for " + std::to_string(sweep_guard_core::toSeconds(now - *newest)) + " s";
-  };
-  std::string silence = root_moves_ ? tell("the tool pose", timeline_.newestOfRoot(), root_timeout_) : "";
-  const auto& variables = model_->robot.tree.variables();
-  for (size_t i = 0; i < variables.size() && silence.empty(); ++i) {
-    const std::string joint = "joint '" + sweep_guard_core::printable(variables[i].name) + "'";
-    if (timeline_.expects(i)) silence = tell(joint, timeline_.newestOf(i), timeouts_[i]);
+void ArticulatedTool::noteForeign(const sensor_msgs::JointState& message) {
+  bool is_complete = true;
+  for (size_t i = 0; i < timeouts_.size(); ++i) is_complete = is_complete && !isMissing(i);
+  is_complete ? foreign_.clear() : foreign_.note(names_, message.name);
+}
+
+bool ArticulatedTool::isMissing(size_t variable) const {
+  return timeline_.expects(variable) && !timeline_.newestOf(variable);
+}
+
+std::string ArticulatedTool::shownJoint(size_t variable) const {
+  const std::string& name = model_->robot.tree.variables()[variable].name;
+  const std::string& in_messages = names_.inMessages(variable);
+  const std::string renamed = in_messages == name ? "" : " ('" + printable(in_messages) + "' in messages)";
+  return "'" + printable(name) + "'" + renamed;
+}
+
+std::string ArticulatedTool::missingPose() const {
+  return root_moves_ && !timeline_.newestOfRoot() ? "the tool pose has not been published yet" : "";
+}
+
+std::string ArticulatedTool::missingJoints() const {
+  std::vector<std::string> missing;
+  std::string shown;
+  for (size_t i = 0; i < timeouts_.size(); ++i) {
+    if (!isMissing(i)) continue;
+    if (missing.size() < kMostMissing) shown += (missing.empty() ? " " : ", ") + shownJoint(i);
+    missing.push_back(model_->robot.tree.variables()[i].name);
   }
-  return silence;
+  if (missing.empty()) return "";
+  if (missing.size() > kMostMissing) shown += ", ...";
+  const std::string others = foreign_.text(missing);
+  return (missing.size() == 1 ? "joint" + shown + " has" : "joints" + shown + " have") + " not been published yet" +
+         (others.empty() ? "" : ", but joint_states has " + others + ": if they are the same, set tool/joint_names");
+}
+
+std::string ArticulatedTool::silence(Time now) const {
+  const std::string pose = missingPose();
+  const std::string joints = missingJoints();
+  if (!pose.empty() || !joints.empty()) return pose + (pose.empty() || joints.empty() ? "" : "; ") + joints;
+  const auto tell = [now](const std::string& what, Time newest) {
+    return what + " has been silent for " + std::to_string(sweep_guard_core::toSeconds(now - newest)) + " s";
+  };
+  const auto root = timeline_.newestOfRoot();
+  if (root && now - *root > root_timeout_) return tell("the tool pose", *root);
+  for (size_t i = 0; i < timeouts_.size(); ++i) {
+    const auto newest = timeline_.newestOf(i);
+    if (newest && now - *newest > timeouts_[i]) return tell("joint " + shownJoint(i), *newest);
+  }
+  return "";
 }
 
 void ArticulatedTool::placeAnew(const PoseOfFrame& X_WF, const std::function<void()>& place) {
@@ -110,6 +153,7 @@ void ArticulatedTool::placeAnew(const PoseOfFrame& X_WF, const std::function<voi
 }
 
 void ArticulatedTool::reset() {
+  foreign_.clear();
   timeline_.reset();
   next_stamp_.reset();
   stamp_.reset();

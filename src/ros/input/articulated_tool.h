@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "ros/input/foreign_joints.h"
 #include "ros/input/joint_names.h"
 #include "ros/parameters/parameters.h"
 #include "sweep_guard/guard/pose_with_frames.h"
@@ -20,16 +21,13 @@ namespace sweep_guard_ros {
 /// keep every body within 0.5 mm of how Motion joins them. One thread.
 class ArticulatedTool {
  public:
-  struct Pose {
-    sweep_guard_core::Time stamp;
-    Eigen::Isometry3d X_WT;
-    std::vector<sweep_guard_core::BodyPose> bodies;
-    sweep_guard_core::RobotState state;
-    std::string jump = {};  ///< as of PoseWithFrames
-  };
-
   /// @param live  with an articulated tool; its bodies may change, its joints do not
   explicit ArticulatedTool(const LiveParameters& live);
+
+  /// Returns the first name in a message of a joint of the tool that moves; null: the message does not concern the tool.
+  const std::string* firstJointIn(const sensor_msgs::JointState& message) const { return names_.firstIn(message); }
+  /// Remembers the names of joints that are not the tool's, as long as silence() has use for them.
+  void noteForeign(const sensor_msgs::JointState& message);
 
   /// Adds positions of joints; those that are not of the tool are passed over.
   /// @throws sweep_guard_core::InvalidInput as JointTimeline::add(), or if there are not as many positions as names
@@ -40,15 +38,16 @@ class ArticulatedTool {
   /// Computes the poses up to the next state that is known; the last one is that of the state.
   /// @param X_WT        returns the pose of the tool frame at a time, with ToolSource::kJointStates; empty: the state waits for it.
   ///                    If it throws, the state is left out: the motion goes straight past it
-  /// @param[out] poses  overwritten
+  /// @param[out] poses  overwritten; without frames, nor when they were received
   /// @returns false if no other state is known yet
   bool next(const std::function<std::optional<Eigen::Isometry3d>(sweep_guard_core::Time)>& X_WT,
-            std::vector<Pose>& poses);
+            std::vector<sweep_guard_core::PoseWithFrames>& poses);
 
   /// Returns whether the newest poses from next() go straight past positions that were dropped.
   bool leavesOut() const { return timeline_.leavesOut(); }
 
-  /// Returns what a joint of the tool, or its pose, lacks; empty: nothing.
+  /// Returns which joints of the tool, or its pose, have not been published yet, and which other joints came; else which
+  /// one is silent; empty: none.
   /// @param now  as the stamps
   std::string silence(sweep_guard_core::Time now) const;
 
@@ -61,17 +60,24 @@ class ArticulatedTool {
   void reset();  ///< forgets all positions
 
  private:
-  void place(sweep_guard_core::Time stamp, const sweep_guard_core::RobotState& state, std::vector<Pose>& poses);
+  bool isMissing(size_t variable) const;
+  std::string shownJoint(size_t variable) const;
+  std::string missingPose() const;
+  std::string missingJoints() const;
+  void place(sweep_guard_core::Time stamp, const sweep_guard_core::RobotState& state,
+             std::vector<sweep_guard_core::PoseWithFrames>& poses);
 
   ArticulatedTool(const LiveParameters& live, const Parameters& parameters);
   const LiveParameters& live_;
   const std::shared_ptr<const RobotModel> model_;  // at the start
   const bool root_moves_;
   const sweep_guard_core::Duration root_timeout_;
+  const std::vector<std::optional<double>> fixed_;  // by variable
   const JointNames names_;
   std::vector<sweep_guard_core::Duration> timeouts_;  // by variable
   sweep_guard_core::JointTimeline timeline_;
   std::vector<sweep_guard_core::JointTimeline::Position> named_;  // in the message
+  ForeignJoints foreign_;                                         // since a joint of the tool is missing
   std::optional<sweep_guard_core::Time> stamp_;                   // of state_
   sweep_guard_core::RobotState state_;                            // the newest
   std::optional<sweep_guard_core::Time> next_stamp_;              // of next_ while it waits

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sweep_guard/common/printable.h"
+#include "sweep_guard/common/stamped_pose.h"
 #include "sweep_guard/geometry/motion.h"
 #include "sweep_guard/prediction/jump.h"
 
@@ -34,15 +35,12 @@ struct Difference {
   Moved curvature;
 };
 
-struct Speed {
-  Eigen::Vector3d translation;  // [m/s]
-  Eigen::Vector3d turn;         // [rad/s]
-};
-
-Speed speedBetween(const Transform& from, const Transform& to) {
+sweep_guard_core::Vector6d speedBetween(const Transform& from, const Transform& to) {
   const double seconds = toSeconds(to.stamp - from.stamp);
   const Eigen::AngleAxisd turn(from.X_PF.linear().transpose() * to.X_PF.linear());
-  return {(to.X_PF.translation() - from.X_PF.translation()) / seconds, turn.angle() / seconds * turn.axis()};
+  sweep_guard_core::Vector6d speed;
+  speed << (to.X_PF.translation() - from.X_PF.translation()) / seconds, turn.angle() / seconds * turn.axis();
+  return speed;
 }
 
 // The straight motion between samples errs by at most an eighth of the acceleration times the square of the period. Twice that, for
@@ -50,12 +48,11 @@ Speed speedBetween(const Transform& from, const Transform& to) {
 std::optional<Moved> curvatureOf(const Samples& samples, size_t i) {
   const bool has_next = i + 1 < samples.size();
   if (!has_next && i < 2) return std::nullopt;
-  const Speed speed = speedBetween(samples[i - 1], samples[i]);
-  const Speed beside =
-      has_next ? speedBetween(samples[i], samples[i + 1]) : speedBetween(samples[i - 2], samples[i - 1]);
+  const sweep_guard_core::Vector6d change =
+      (has_next ? speedBetween(samples[i], samples[i + 1]) : speedBetween(samples[i - 2], samples[i - 1])) -
+      speedBetween(samples[i - 1], samples[i]);
   const double period = toSeconds(samples[i].stamp - samples[i - 1].stamp);
-  return Moved{(beside.translation - speed.translation).norm() * period / 4.0,
-               (beside.turn - speed.turn).norm() * period / 4.0};
+  return Moved{change.head<3>().norm() * period / 4.0, change.tail<3>().norm() * period / 4.0};
 }
 
 // Returns how far a node places the frame from where another one does at a stamp; empty: not known.
@@ -95,15 +92,15 @@ void keep(const Transform& transform, Samples& samples) {
 
 void FramePublishers::add(const std::string& frame, const std::string& node, const Transform& transform,
                           SteadyTime received) {
-  Frame& published = frames_[frame];
-  Node& newest = nodeOf(node, received, published);
-  if (published.nodes.size() == 1) newest.samples.clear();
+  std::vector<Node>& nodes = nodes_[frame];
+  Node& newest = nodeOf(node, received, nodes);
+  if (nodes.size() == 1) newest.samples.clear();
   keep(transform, newest.samples);
   const std::uint64_t previous = newest.number;
   const bool goes_on = previous > 0 && received - newest.received <= kByTurns;
-  newest.number = ++published.count;
+  newest.number = ++count_;
   newest.received = received;
-  for (const Node& other : published.nodes) {
+  for (const Node& other : nodes) {
     if (&other == &newest) continue;
     if (goes_on && other.number > previous) newest.by_turns = received;
     const SteadyTime last = std::max(newest.by_turns, other.by_turns);
@@ -112,8 +109,7 @@ void FramePublishers::add(const std::string& frame, const std::string& node, con
 }
 
 // Forgets those that are silent. Of more than there is room for, the newest takes the place of the one that was silent for longest.
-FramePublishers::Node& FramePublishers::nodeOf(const std::string& name, SteadyTime received, Frame& frame) {
-  auto& nodes = frame.nodes;
+FramePublishers::Node& FramePublishers::nodeOf(const std::string& name, SteadyTime received, std::vector<Node>& nodes) {
   if (nodes.size() == 1 && nodes[0].name == name) return nodes[0];
   const auto is_gone = [&](const Node& node) { return node.name != name && received - node.received > kByTurns; };
   nodes.erase(std::remove_if(nodes.begin(), nodes.end(), is_gone), nodes.end());

@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "sweep_guard/common/mutex.h"
+#include "common/guarded_by.h"
 #include "sweep_guard/common/sample_buffer.h"
 #include "sweep_guard/common/time.h"
 
@@ -46,21 +46,17 @@ class FramePublishers {
   struct Node {
     std::string name;
     Samples samples = {};
-    std::uint64_t number = 0;               // of its newest transform, among those of the frame
+    std::uint64_t number = 0;               // of its newest transform, among all
     sweep_guard_core::SteadyTime received;  // its newest transform
     sweep_guard_core::SteadyTime by_turns;  // when it published after another node that had published after it
   };
-  struct Frame {
-    std::vector<Node> nodes;
-    std::uint64_t count = 0;  // of transforms
-  };
-
-  static Node& nodeOf(const std::string& name, sweep_guard_core::SteadyTime received, Frame& frame);
+  static Node& nodeOf(const std::string& name, sweep_guard_core::SteadyTime received, std::vector<Node>& nodes);
   void compare(const std::string& frame, const Node& one, const Node& other, sweep_guard_core::SteadyTime received);
   void found(Conflict conflict);
 
-  std::unordered_map<std::string, Frame> frames_;  // used by the listener only
-  mutable sweep_guard_core::Mutex mutex_;          // of the next one
+  std::unordered_map<std::string, std::vector<Node>> nodes_;  // by frame; used by the listener only
+  std::uint64_t count_ = 0;                                   // of transforms; the same
+  mutable sweep_guard_core::Mutex mutex_;                     // of the next one
   mutable std::map<std::string, Conflict> conflicts_ GUARDED_BY(mutex_);
   mutable std::atomic<bool> any_ = false;
 };

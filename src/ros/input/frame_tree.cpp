@@ -1,5 +1,6 @@
 #include "ros/input/frame_tree.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace sweep_guard_ros {
@@ -15,6 +16,20 @@ std::vector<std::string> chainTo(const std::map<std::string, std::string>& paren
     frames.push_back(parent->second);
     parent = parents.find(parent->second);
   }
+  return frames;
+}
+
+// Between two frames lies what leads up from one of them and not from the other.
+std::set<std::string> framesBetween(const std::map<std::string, std::string>& parents, const std::string& target,
+                                    const std::string& source) {
+  std::vector<std::string> from_target = chainTo(parents, target);
+  std::vector<std::string> from_source = chainTo(parents, source);
+  while (!from_target.empty() && !from_source.empty() && from_target.back() == from_source.back()) {
+    from_target.pop_back();
+    from_source.pop_back();
+  }
+  std::set<std::string> frames(from_target.begin(), from_target.end());
+  frames.insert(from_source.begin(), from_source.end());
   return frames;
 }
 
@@ -36,28 +51,27 @@ void FrameTree::use(const std::string& user, const std::string& target, const st
 bool FrameTree::isUsed(const std::string& child) const {
   const sweep_guard_core::Lock lock(mutex_);
   if (outdated_) findUsed();
-  return used_.count(child) != 0;
+  return std::any_of(used_.begin(), used_.end(), [&](const auto& used) { return used.second.count(child) != 0; });
 }
 
-// Between two frames lies what leads up from one of them and not from the other.
+bool FrameTree::isUsedBy(const std::string& user, const std::string& child) const {
+  const sweep_guard_core::Lock lock(mutex_);
+  if (outdated_) findUsed();
+  const auto used = used_.find(user);
+  return used != used_.end() && used->second.count(child) != 0;
+}
+
 void FrameTree::findUsed() const {
   used_.clear();
   outdated_ = false;
   for (const auto& [user, uses] : uses_) {
-    const std::vector<std::string> from_target = chainTo(parents_, uses.target);
-    for (const std::string& source : uses.sources) {
-      const std::vector<std::string> from_source = chainTo(parents_, source);
-      auto target_end = from_target.end();
-      auto source_end = from_source.end();
-      while (target_end != from_target.begin() && source_end != from_source.begin() &&
-             *std::prev(target_end) == *std::prev(source_end)) {
-        --target_end;
-        --source_end;
-      }
-      used_.insert(from_target.begin(), target_end);
-      used_.insert(from_source.begin(), source_end);
-    }
+    for (const std::string& source : uses.sources) used_[user].merge(framesBetween(parents_, uses.target, source));
   }
+}
+
+std::set<std::string> FrameTree::between(const std::string& target, const std::string& source) const {
+  const sweep_guard_core::Lock lock(mutex_);
+  return framesBetween(parents_, target, source);
 }
 
 }  // namespace sweep_guard_ros

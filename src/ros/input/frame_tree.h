@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "sweep_guard/common/mutex.h"
+#include "common/guarded_by.h"
 
 namespace sweep_guard_ros {
 
@@ -21,6 +21,10 @@ class FrameTree {
 
   /// Returns whether the transform to a frame from the one it stands on lies between frames that use() names.
   bool isUsed(const std::string& child) const;
+  /// Returns the same for the frames of one user.
+  bool isUsedBy(const std::string& user, const std::string& child) const;
+  /// Returns the frames whose transforms, from what each stands on, lie between two frames.
+  std::set<std::string> between(const std::string& target, const std::string& source) const;
 
  private:
   struct Uses {
@@ -31,10 +35,10 @@ class FrameTree {
   void findUsed() const REQUIRES(mutex_);
 
   mutable sweep_guard_core::Mutex mutex_;
-  std::map<std::string, std::string> parents_ GUARDED_BY(mutex_);  // by child
-  std::map<std::string, Uses> uses_ GUARDED_BY(mutex_);            // by user
-  mutable bool outdated_ GUARDED_BY(mutex_) = false;               // `used_`
-  mutable std::set<std::string> used_ GUARDED_BY(mutex_);          // children
+  std::map<std::string, std::string> parents_ GUARDED_BY(mutex_);                 // by child
+  std::map<std::string, Uses> uses_ GUARDED_BY(mutex_);                           // by user
+  mutable bool outdated_ GUARDED_BY(mutex_) = false;                              // `used_`
+  mutable std::map<std::string, std::set<std::string>> used_ GUARDED_BY(mutex_);  // children, by user
 };
 
 }  // namespace sweep_guard_ros

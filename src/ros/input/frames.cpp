@@ -17,32 +17,38 @@ constexpr std::uint32_t kTransformsQueued = 1000;
 constexpr size_t kMaxReason = 400;    // [bytes]
 constexpr size_t kMaxFrames = 10000;  // tf2 forgets none
 
-void check(const geometry_msgs::TransformStamped& transform) {
-  for (const std::string& frame : {transform.header.frame_id, transform.child_frame_id}) {
-    if (!sweep_guard_core::isName(frame)) {
+std::string withoutSlash(const std::string& frame) { return frame.substr(frame.find_first_not_of('/') == 1 ? 1 : 0); }
+
+void normalize(geometry_msgs::Quaternion& q) {
+  const double length = Eigen::Vector4d(q.x, q.y, q.z, q.w).norm();
+  for (double* const value : {&q.x, &q.y, &q.z, &q.w}) *value /= length;
+}
+
+// Returns the transform with plain names of frames and a quaternion of unit length.
+geometry_msgs::TransformStamped checked(geometry_msgs::TransformStamped transform) {
+  for (std::string* const frame : {&transform.header.frame_id, &transform.child_frame_id}) {
+    *frame = withoutSlash(*frame);
+    if (!sweep_guard_core::isName(*frame) || (*frame)[0] == '/') {
       throw sweep_guard_core::InvalidInput("a frame is no name of up to 128 printable characters");
     }
   }
+  if (transform.header.frame_id == transform.child_frame_id) {
+    throw sweep_guard_core::InvalidInput("the frame is placed in itself");
+  }
   fromMsg(transform.transform);
-}
-
-FrameError noTransform(const std::string& target, const std::string& source, const std::string& why) {
-  return FrameError("no transform from '" + printable(source) + "' to '" + printable(target) +
-                    "': " + printable(why, kMaxReason));
+  normalize(transform.transform.rotation);
+  return transform;
 }
 
 FrameError notRigid(const std::string& target, const std::string& source, const std::string& why) {
   return FrameError("transform from '" + printable(source) + "' to '" + printable(target) + "' is not rigid: " + why);
 }
 
-std::string withoutSlash(const std::string& frame) { return frame.substr(frame.find_first_not_of('/') == 1 ? 1 : 0); }
-
 }  // namespace
 
 Frames::Frames(const ros::NodeHandle& node, size_t max_message_size,
                std::function<void(const std::string&, const std::string&)> on_static_change)
     : on_static_change_(std::move(on_static_change)) {
-  buffer_.setUsingDedicatedThread(true);
   const auto subscribe = [&](const std::string& topic, bool is_static) {
     return subscribeBounded<tf2_msgs::TFMessage>(
         thread_.on(node), {topic, kTransformsQueued, max_message_size},
@@ -59,22 +65,50 @@ void Frames::onTransforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& ev
   for (const geometry_msgs::TransformStamped& transform : event.getConstMessage()->transforms) {
     sweep_guard_core::beat();
     try {
-      check(transform);
-      if (!is_static) checkStamp(transform.header.stamp);
-      countFrames(transform);
-      const std::string publisher = printable(event.getPublisherName());
-      if (is_static && isHeldBack(transform, publisher)) continue;
-      buffer_.setTransform(transform, publisher, is_static);
-      tree_.add(withoutSlash(transform.header.frame_id), withoutSlash(transform.child_frame_id));
-      if (is_static || !tree_.isUsed(withoutSlash(transform.child_frame_id))) continue;
-      notePublisher(transform, event.getPublisherName());
-      moved();
+      accept(checked(transform), event.getPublisherName(), is_static);
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
-      log_.error("transform", "transform to '" + printable(transform.child_frame_id) + "' refused: " + error.what());
+      refuse(transform, event.getPublisherName(), error.what());
     }
   }
+}
+
+void Frames::accept(const geometry_msgs::TransformStamped& transform, const std::string& node, bool is_static) {
+  const std::string& child = transform.child_frame_id;
+  if (!is_static) checkStamp(transform.header.stamp);
+  countFrames(transform);
+  if (is_static && buffer_.moves(child)) {
+    log_.error("moves", "frame '" + child + "' comes on /tf and on /tf_static: it counts as one that moves");
+    return;
+  }
+  const std::string publisher = printable(node);
+  if (!is_static || !isHeldBack(transform, publisher)) {
+    buffer_.set(transform, publisher, is_static);
+    tree_.add(transform.header.frame_id, child);
+  }
+  refused_.accepted(child);
+  if (is_static || !tree_.isUsed(child)) return;
+  notePublisher(transform, node);
+  callBack(on_move_);
+}
+
+void Frames::refuse(const geometry_msgs::TransformStamped& transform, const std::string& node, const std::string& why) {
+  const std::string child = withoutSlash(transform.child_frame_id);
+  const std::string text =
+      "transform to '" + printable(child) + "' from node '" + printable(node) + "' refused: " + why;
+  log_.error("transform", text);
+  if (!sweep_guard_core::isName(child)) return;
+  refused_.add(child, text);
+  if (tree_.isUsed(child)) callBack(on_refusal_);
+}
+
+std::string Frames::refusal() const {
+  return refused_.find([this](const std::string& child) { return tree_.isUsed(child); });
+}
+
+std::string Frames::refusalFor(const std::string& user) const {
+  return refused_.find([&](const std::string& child) { return tree_.isUsedBy(user, child); });
 }
 
 void Frames::checkClock() {
@@ -89,10 +123,9 @@ void Frames::checkStamp(const ros::Time& stamp) {
 }
 
 void Frames::notePublisher(const geometry_msgs::TransformStamped& transform, const std::string& node) {
-  publishers_.add(
-      withoutSlash(transform.child_frame_id), node,
-      {fromMsg(transform.header.stamp), withoutSlash(transform.header.frame_id), fromMsg(transform.transform)},
-      std::chrono::steady_clock::now());
+  publishers_.add(transform.child_frame_id, node,
+                  {fromMsg(transform.header.stamp), transform.header.frame_id, fromMsg(transform.transform)},
+                  std::chrono::steady_clock::now());
 }
 
 std::string Frames::conflict() const {
@@ -106,7 +139,7 @@ std::string Frames::conflict() const {
 // A change that counts waits until what moved before it is swept. It is told of once it waits: a pose that is received later
 // finds it.
 bool Frames::isHeldBack(const geometry_msgs::TransformStamped& transform, const std::string& publisher) {
-  const std::string child = withoutSlash(transform.child_frame_id);
+  const std::string& child = transform.child_frame_id;
   const auto known = static_transforms_.emplace(child, transform).first;
   const bool same =
       known->second.header.frame_id == transform.header.frame_id && known->second.transform == transform.transform;
@@ -140,8 +173,8 @@ bool Frames::applyStaticChanges() {
     std::swap(changes, held_back_);
   }
   for (const auto& [child, change] : changes) {
-    buffer_.setTransform(change.transform, change.publisher, /*is_static=*/true);
-    tree_.add(withoutSlash(change.transform.header.frame_id), child);
+    buffer_.set(change.transform, change.publisher, /*is_static=*/true);
+    tree_.add(change.transform.header.frame_id, child);
   }
   return !changes.empty();
 }
@@ -152,20 +185,20 @@ void Frames::use(const std::string& user, const std::string& target, const std::
   tree_.use(user, withoutSlash(target), names);
 }
 
-void Frames::moved() {
-  std::shared_ptr<Gate<>> on_move;
+void Frames::callBack(const Callback& slot) {
+  Callback callback;
   {
-    const sweep_guard_core::Lock lock(moves_mutex_);
-    on_move = on_move_;
+    const sweep_guard_core::Lock lock(callbacks_mutex_);
+    callback = slot;
   }
-  if (on_move) on_move->pass();
+  if (callback) callback->pass();
 }
 
-std::shared_ptr<void> Frames::onMove(std::function<void()> callback) {
+std::shared_ptr<void> Frames::connect(Callback& slot, std::function<void()> callback) {
   const auto gate = std::make_shared<Gate<>>(std::move(callback));
-  const auto set = [this](const std::shared_ptr<Gate<>>& next) {
-    const sweep_guard_core::Lock lock(moves_mutex_);
-    on_move_ = next;
+  const auto set = [this, &slot](const Callback& next) {
+    const sweep_guard_core::Lock lock(callbacks_mutex_);
+    slot = next;
   };
   set(gate);
   return std::shared_ptr<void>(nullptr, [set, gate](void*) {
@@ -186,7 +219,7 @@ Eigen::Isometry3d Frames::lookup(const std::string& target, const std::string& s
                                  sweep_guard_core::Time stamp) const {
   if (withoutSlash(target) == withoutSlash(source)) return Eigen::Isometry3d::Identity();
   try {
-    return fromMsg(buffer_.lookupTransform(withoutSlash(target), withoutSlash(source), toMsg(stamp)).transform);
+    return fromMsg(buffer_.lookup(withoutSlash(target), withoutSlash(source), toMsg(stamp)).transform);
   } catch (const tf2::TransformException& error) {
     throw noTransform(target, source, error.what());
   } catch (const sweep_guard_core::InvalidInput& error) {
@@ -219,7 +252,7 @@ Eigen::Isometry3d Frames::lookup(const std::string& target, const std::string& s
 NewestPose Frames::newestPose(const std::string& target, const std::string& source) const {
   if (withoutSlash(target) == withoutSlash(source)) return {};
   try {
-    const auto newest = buffer_.lookupTransform(withoutSlash(target), withoutSlash(source), ros::Time(0));
+    const auto newest = buffer_.lookup(withoutSlash(target), withoutSlash(source), ros::Time(0));
     return {fromMsg(newest.header.stamp), fromMsg(newest.transform)};
   } catch (const tf2::TransformException& error) {
     throw noTransform(target, source, error.what());
@@ -231,20 +264,17 @@ NewestPose Frames::newestPose(const std::string& target, const std::string& sour
 std::optional<sweep_guard_core::Time> Frames::newest(const std::string& target, const std::string& source) const {
   if (withoutSlash(target) == withoutSlash(source)) return sweep_guard_core::Time();
   try {
-    return fromMsg(buffer_.lookupTransform(withoutSlash(target), withoutSlash(source), ros::Time(0)).header.stamp);
+    return fromMsg(buffer_.lookup(withoutSlash(target), withoutSlash(source), ros::Time(0)).header.stamp);
   } catch (const tf2::TransformException&) {
     return std::nullopt;
   }
 }
 
-// Removing a callback from tf2 does not wait for one that is running; the gate does.
-std::shared_ptr<void> Frames::onChange(std::function<void()> callback) {
-  auto gate = std::make_shared<Gate<>>(std::move(callback));
-  const auto connection = buffer_._addTransformsChangedListener([gate] { gate->pass(); });
-  return std::shared_ptr<void>(nullptr, [this, gate, connection](void*) {
-    buffer_._removeTransformsChangedListener(connection);
-    gate->close();
-  });
+FrameError Frames::noTransform(const std::string& target, const std::string& source, const std::string& why) const {
+  const std::set<std::string> frames = tree_.between(withoutSlash(target), withoutSlash(source));
+  const std::string refused = refused_.find([&](const std::string& child) { return frames.count(child) != 0; });
+  return FrameError("no transform from '" + printable(source) + "' to '" + printable(target) +
+                    "': " + printable(why, kMaxReason) + (refused.empty() ? "" : ": " + refused));
 }
 
 }  // namespace sweep_guard_ros

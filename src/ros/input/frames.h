@@ -1,7 +1,6 @@
 #pragma once
 
 #include <tf2_msgs/TFMessage.h>
-#include <tf2_ros/buffer.h>
 
 #include <Eigen/Geometry>
 #include <cstdint>
@@ -11,16 +10,19 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
+#include "common/guarded_by.h"
 #include "ros/connection/bounded.h"
+#include "ros/input/frame_buffer.h"
 #include "ros/input/frame_publishers.h"
 #include "ros/input/frame_tree.h"
+#include "ros/input/refused_transforms.h"
 #include "ros/input/transform_clock.h"
 #include "ros/process/log_throttle.h"
 #include "ros/threads/gate.h"
 #include "ros/threads/queue_thread.h"
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/common/time.h"
 
 namespace sweep_guard_ros {
@@ -37,7 +39,7 @@ struct NewestPose {
 };
 
 /// Listens to /tf and /tf_static, and looks up poses of tf frames. Never interpolates beyond the buffer: a transform is
-/// taken at its stamp or not at all. Any thread.
+/// taken at its stamp or not at all. A quaternion is made one of unit length where it is almost, as that of a pose. Any thread.
 ///
 /// A change of a static transform that counts, see use(), is held back until applyStaticChanges(): until then, frames are where
 /// they were before.
@@ -82,10 +84,18 @@ class Frames {
 
   /// Calls back after every transform, in the thread of the listener, until the handle is destroyed. Also in the thread of
   /// applyStaticChanges().
-  std::shared_ptr<void> onChange(std::function<void()> callback);
+  std::shared_ptr<void> onChange(std::function<void()> callback) { return buffer_.onChange(std::move(callback)); }
+
+  /// Returns why a transform that counts was refused, with its frame, publisher and value, and no good one to that frame has come
+  /// since; empty: none was.
+  std::string refusal() const;
+  /// Returns the same for transforms that count for one user.
+  std::string refusalFor(const std::string& user) const;
+  /// Calls back after every transform that counts and is refused, in the thread of the listener, until the handle is destroyed.
+  std::shared_ptr<void> onRefusal(std::function<void()> callback) { return connect(on_refusal_, std::move(callback)); }
 
   /// Calls back after every transform that counts and moves, in the thread of the listener, until the handle is destroyed.
-  std::shared_ptr<void> onMove(std::function<void()> callback);
+  std::shared_ptr<void> onMove(std::function<void()> callback) { return connect(on_move_, std::move(callback)); }
 
   /// Sets that transforms between `target` and each of these frames count for a user, in place of those it has set before.
   void use(const std::string& user, const std::string& target, const std::set<std::string>& sources);
@@ -100,9 +110,14 @@ class Frames {
 
  private:
   void onTransforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& event, bool is_static);
+  void accept(const geometry_msgs::TransformStamped& transform, const std::string& node, bool is_static);
+  void refuse(const geometry_msgs::TransformStamped& transform, const std::string& node, const std::string& why);
   void checkStamp(const ros::Time& stamp);
+  FrameError noTransform(const std::string& target, const std::string& source, const std::string& why) const;
   void notePublisher(const geometry_msgs::TransformStamped& transform, const std::string& node);
-  void moved();
+  using Callback = std::shared_ptr<Gate<>>;
+  std::shared_ptr<void> connect(Callback& slot, std::function<void()> callback);
+  void callBack(const Callback& slot);
   bool isHeldBack(const geometry_msgs::TransformStamped& transform, const std::string& publisher);
   void countFrames(const geometry_msgs::TransformStamped& transform);
 
@@ -113,8 +128,10 @@ class Frames {
   };
   std::map<std::string, geometry_msgs::TransformStamped> static_transforms_;  // by child; used by the listener only
   FrameTree tree_;
-  sweep_guard_core::Mutex moves_mutex_;  // of the next one
-  std::shared_ptr<Gate<>> on_move_ GUARDED_BY(moves_mutex_);
+  RefusedTransforms refused_;
+  sweep_guard_core::Mutex callbacks_mutex_;  // of the next ones
+  Callback on_move_;
+  Callback on_refusal_;
   mutable sweep_guard_core::Mutex changes_mutex_;                             // of the next ones
   std::map<std::string, StaticChange> held_back_ GUARDED_BY(changes_mutex_);  // by child
   sweep_guard_core::SteadyTime held_back_since_ GUARDED_BY(changes_mutex_);
@@ -124,7 +141,7 @@ class Frames {
   LogThrottle log_;
   sweep_guard_core::Mutex clock_mutex_;  // of the next one
   TransformClock clock_ GUARDED_BY(clock_mutex_);
-  tf2_ros::Buffer buffer_;
+  FrameBuffer buffer_;
   QueueThread thread_;  // before the subscribers, which use its queue
   BoundedSubscriber moving_;
   BoundedSubscriber static_;

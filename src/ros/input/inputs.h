@@ -18,6 +18,7 @@ class Inputs {
   void start();
   void takeEarly() { meshes_.takeEarly(); }               ///< as MeshInput
   void applyLateChanges() { poses_.applyLateChanges(); }  ///< as PoseInput
+  void addRestingPose() { poses_.addRestingPose(); }      ///< as PoseInput
 
   const PoseInput& poses() const { return poses_; }
   const MeshInput& meshes() const { return meshes_; }

@@ -1,21 +1,56 @@
 #include "ros/input/joint_names.h"
 
+#include <algorithm>
+
+#include "ros/tool/robot_tree.h"
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/common/printable.h"
 
 namespace sweep_guard_ros {
+namespace {
 
-JointNames::JointNames(const sweep_guard_core::KinematicTree& tree) {
-  const auto& variables = tree.variables();
-  for (size_t i = 0; i < variables.size(); ++i) variables_.emplace(variables[i].name, i);
+using sweep_guard_core::InvalidInput;
+using sweep_guard_core::printable;
+
+}  // namespace
+
+JointNames::JointNames(const sweep_guard_core::KinematicTree& tree, const std::vector<std::optional<double>>& fixed,
+                       const Renamed& renamed)
+    : names_(tree.variables().size()) {
+  for (const auto& [in_messages, joint] : renamed) rename(in_messages, variableNamed(tree, joint));
+  for (size_t i = 0; i < names_.size(); ++i) {
+    if (names_[i].empty()) names_[i] = tree.variables()[i].name;
+    if (fixed[i]) continue;
+    if (variables_.emplace(names_[i], i).second) continue;
+    throw InvalidInput("'" + printable(names_[i]) +
+                       "' is the name of two joints on the topic: give the joint of this name another one");
+  }
+}
+
+void JointNames::rename(const std::string& in_messages, size_t variable) {
+  if (!names_[variable].empty()) {
+    throw InvalidInput("'" + printable(names_[variable]) + "' and '" + printable(in_messages) +
+                       "' name one joint: leave one of them out");
+  }
+  names_[variable] = in_messages;
+}
+
+const std::string* JointNames::firstIn(const sensor_msgs::JointState& message) const {
+  const auto is_ours = [this](const std::string& name) { return has(name); };
+  const auto first = std::find_if(message.name.begin(), message.name.end(), is_ours);
+  return first == message.name.end() ? nullptr : &*first;
 }
 
 void JointNames::find(const sensor_msgs::JointState& message,
                       std::vector<sweep_guard_core::JointTimeline::Position>& positions) const {
-  if (message.position.size() != message.name.size()) {
-    throw sweep_guard_core::InvalidInput("it names " + std::to_string(message.name.size()) + " joints and has " +
-                                         std::to_string(message.position.size()) + " positions: publish one for each");
-  }
   positions.clear();
+  const std::string* const first = firstIn(message);
+  if (first == nullptr) return;
+  if (message.position.size() != message.name.size()) {
+    throw InvalidInput("it names " + std::to_string(message.name.size()) + " joints, '" + printable(*first) +
+                       "' among them, and has " + std::to_string(message.position.size()) +
+                       " positions: publish one for each");
+  }
   for (size_t i = 0; i < message.name.size(); ++i) {
     const auto variable = variables_.find(message.name[i]);
     if (variable != variables_.end()) positions.push_back({variable->second, message.position[i]});

@@ -16,16 +16,34 @@ namespace sweep_guard_ros {
 /// Finds the joints of a robot in messages.
 class JointNames {
  public:
-  explicit JointNames(const sweep_guard_core::KinematicTree& tree);
+  /// Names of joints in the robot description, by their names in messages.
+  using Renamed = std::map<std::string, std::string>;
 
-  /// Returns the positions of the robot's joints; those of others are passed over.
+  /// @param fixed    from fixedPositions(): joints with a position are passed over in messages
+  /// @param renamed  joints that are not here have the same name in messages as in the robot description
+  /// @throws sweep_guard_core::InvalidInput if a joint of `renamed` is none of the tree, has two names in messages, or
+  ///     takes the name of another one, for which none is left
+  JointNames(const sweep_guard_core::KinematicTree& tree, const std::vector<std::optional<double>>& fixed,
+             const Renamed& renamed = {});
+
+  /// Returns the first name in a message of a joint of the robot that is not fixed; null: the message has none.
+  const std::string* firstIn(const sensor_msgs::JointState& message) const;
+
+  /// Returns the positions of the robot's joints that are not fixed; all others are passed over.
   /// @param[out] positions  overwritten; its buffer is used again
-  /// @throws sweep_guard_core::InvalidInput if there are not as many positions as names
+  /// @throws sweep_guard_core::InvalidInput if one is named and there are not as many positions as names
   void find(const sensor_msgs::JointState& message,
             std::vector<sweep_guard_core::JointTimeline::Position>& positions) const;
 
+  bool has(const std::string& name_in_messages) const { return variables_.count(name_in_messages) != 0; }
+  /// Returns the name in messages of the joint of a variable.
+  const std::string& inMessages(size_t variable) const { return names_[variable]; }
+
  private:
-  std::unordered_map<std::string, size_t> variables_;  // by name of the joint
+  void rename(const std::string& in_messages, size_t variable);
+
+  std::vector<std::string> names_;                     // by variable
+  std::unordered_map<std::string, size_t> variables_;  // by name in messages
 };
 
 /// Returns the position of each variable that has one by the name of its joint [rad or m].

@@ -6,6 +6,8 @@
 namespace sweep_guard_ros {
 namespace {
 
+using sweep_guard_core::QueuedPose;
+
 constexpr size_t kMaxWaitingPoses = 8192;  // poses
 constexpr size_t kMaxToolFrames = 16;      // made-up names take no room from others
 
@@ -18,15 +20,14 @@ void LatePoses::use(const std::string& frame) {
   frames_.use("tool", live_.initial().fixed_frame, used_);
 }
 
-std::optional<LocatedPose> LatePoses::locate(const ReceivedPose& pose) {
-  std::optional<LocatedPose> located;
+std::optional<QueuedPose> LatePoses::locate(const ReceivedPose& pose) {
+  std::optional<QueuedPose> located;
   if (waiting_.empty()) located = locate(pose, pose.timestamps.received);
   if (!located) waiting_.push_back(pose);
   return located;
 }
 
-// For the guard, poses that waited are received with their transforms.
-std::optional<LocatedPose> LatePoses::locateNext() {
+std::optional<QueuedPose> LatePoses::locateNext() {
   if (waiting_.empty()) return std::nullopt;
   ReceivedPose next = std::move(waiting_.front());
   waiting_.pop_front();
@@ -35,12 +36,12 @@ std::optional<LocatedPose> LatePoses::locateNext() {
   return located;
 }
 
-std::optional<LocatedPose> LatePoses::locate(const ReceivedPose& pose, sweep_guard_core::SteadyTime known) {
+std::optional<QueuedPose> LatePoses::locate(const ReceivedPose& pose, sweep_guard_core::SteadyTime known) {
   const auto X_WF = find(pose.frame, pose.timestamps.stamp, pose.timestamps.received);
   if (!X_WF) return std::nullopt;
   located_ = pose.timestamps.stamp;
   frame_ = pose.frame;
-  return LocatedPose{pose.timestamps.stamp, known, pose.checkpoint, *X_WF * pose.X_FT};
+  return QueuedPose{{pose.timestamps.stamp, known, *X_WF * pose.X_FT}, pose.checkpoint};
 }
 
 std::optional<Eigen::Isometry3d> LatePoses::locateToolFrame(sweep_guard_core::Time stamp) {

@@ -2,11 +2,13 @@
 
 #include <Eigen/Geometry>
 #include <atomic>
+#include <cstdint>
 #include <deque>
 #include <optional>
 #include <set>
 #include <string>
 
+#include "monitor/work_queue.h"
 #include "ros/input/frames.h"
 #include "ros/parameters/parameters.h"
 #include "sweep_guard/common/time.h"
@@ -19,19 +21,13 @@ struct ReceivedPose {
   sweep_guard_core::Timestamps timestamps;
   std::string frame;
   Eigen::Isometry3d X_FT;
-  sweep_guard_core::WarningMonitor::Checkpoint checkpoint = {};  ///< when it was received
-};
-
-/// A pose of the tool in the fixed frame.
-struct LocatedPose {
-  sweep_guard_core::Time stamp;
-  sweep_guard_core::SteadyTime known;  ///< when it was received; later if it waited
-  sweep_guard_core::WarningMonitor::Checkpoint checkpoint;
-  Eigen::Isometry3d X_WT;
+  /// When it was received. Taken first: a pose that does not know of a change does not end its fault.
+  sweep_guard_core::WarningMonitor::Checkpoint checkpoint = {};
+  std::uint64_t static_changes = 0;  ///< as Frames counted them then
 };
 
 /// Locates poses of the tool in the fixed frame, in their order. A pose whose transform is late waits for it, for up to
-/// `timing/pose_timeout`, and those that come after it wait, too. One thread.
+/// `timing/pose_timeout`, and those that come after it wait, too. A pose that waited is received when it is located. One thread.
 class LatePoses {
  public:
   /// Both must outlive this.
@@ -42,11 +38,11 @@ class LatePoses {
 
   /// Locates a pose that has come; empty: it waits.
   /// @throws FrameError if there is no transform
-  std::optional<LocatedPose> locate(const ReceivedPose& pose);
+  std::optional<sweep_guard_core::QueuedPose> locate(const ReceivedPose& pose);
 
   /// Locates the first pose that waits; empty: none waits, or its transform may still come.
   /// @throws FrameError if there is no transform; then the pose is left out
-  std::optional<LocatedPose> locateNext();
+  std::optional<sweep_guard_core::QueuedPose> locateNext();
 
   /// Locates the tool frame for a state of joints; empty: its transform may still come. The time to wait begins with the
   /// first call for a state.
@@ -65,7 +61,7 @@ class LatePoses {
   bool hasBegunToWait() { return has_begun_to_wait_.exchange(false); }    ///< since the last call. Any thread
 
  private:
-  std::optional<LocatedPose> locate(const ReceivedPose& pose, sweep_guard_core::SteadyTime known);
+  std::optional<sweep_guard_core::QueuedPose> locate(const ReceivedPose& pose, sweep_guard_core::SteadyTime known);
   std::optional<Eigen::Isometry3d> find(const std::string& frame, sweep_guard_core::Time stamp,
                                         sweep_guard_core::SteadyTime since);
 

@@ -166,9 +166,8 @@ void MeshInput::convert(const sweep_guard::DeformableMesh::ConstPtr& msg, Steady
 }
 
 TriangleMesh MeshInput::meshOf(const sweep_guard::DeformableMesh& msg) const {
-  using sweep_guard_core::SurfaceKind;
-  const bool is_open = msg.open != 0 || open_ids_.count(msg.id) != 0;
-  return fromMsg(msg.mesh, max_triangles_, is_open ? SurfaceKind::kSheet : SurfaceKind::kMayEnclose);
+  const bool is_sheet = msg.open != 0 || open_ids_.count(msg.id) != 0;
+  return fromMsg(msg.mesh, max_triangles_, is_sheet);
 }
 
 // The clock of a simulation may be silent for a while, and a latched mesh is not sent again.

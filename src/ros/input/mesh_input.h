@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 
+#include "common/guarded_by.h"
 #include "guard/workpiece_store.h"
 #include "monitor/input_record.h"
 #include "ros/connection/bounded.h"
@@ -16,7 +17,6 @@
 #include "ros/parameters/parameters.h"
 #include "ros/process/log_throttle.h"
 #include "ros/threads/queue_thread.h"
-#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {

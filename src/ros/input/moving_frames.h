@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "common/guarded_by.h"
 #include "monitor/input_record.h"
 #include "monitor/work_queue.h"
 #include "ros/input/frames.h"
 #include "ros/process/log_throttle.h"
-#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/guard/frame_motion.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 

@@ -1,6 +1,8 @@
 #include "ros/input/pose_input.h"
 
-#include <boost/make_shared.hpp>
+#include <algorithm>
+#include <functional>
+#include <utility>
 
 #include "ros/input/future_stamp.h"
 #include "sweep_guard/common/error.h"
@@ -13,6 +15,7 @@ namespace {
 using sweep_guard_core::Reason;
 
 constexpr size_t kMaxMessageSize = 16384;  // a frame name of any sense fits [bytes]
+constexpr const char* kTooMany = "tool poses were dropped: too many wait to be swept";
 constexpr const char* kPassed = "positions of joints were dropped: others were silent meanwhile";
 constexpr size_t kMaxJointsSize = 1U << 20U;  // [bytes]
 constexpr char kPoseTopic[] = "tool_pose";
@@ -31,6 +34,16 @@ void requireStamp(sweep_guard_core::Time stamp) {
   if (liesInFuture(stamp)) throw PoseRefused(sweep_guard_core::kFutureStamp, kFutureStampText);
 }
 
+void requireStamp(sweep_guard_core::Time stamp, const std::string& joint) {
+  try {
+    requireStamp(stamp);
+  } catch (const PoseRefused& error) {
+    const bool is_zero = stamp == sweep_guard_core::Time();
+    throw PoseRefused(error.reason, "joint '" + sweep_guard_core::printable(joint) +
+                                        "': " + (is_zero ? "stamp is 0: stamp each message" : error.what()));
+  }
+}
+
 std::string sourceOf(const ros::NodeHandle& node, const Parameters& parameters) {
   const std::string frames = "tf " + parameters.fixed_frame + " to " + parameters.tool_frame;
   const std::string joints = node.resolveName(kJointsTopic);
@@ -39,24 +52,12 @@ std::string sourceOf(const ros::NodeHandle& node, const Parameters& parameters) 
   return parameters.articulated ? pose + " and " + joints : pose;
 }
 
-}  // namespace
-
-template <typename Accept>
-void PoseInput::refuseWhatFails(const Accept& accept) {
-  try {
-    accept();
-  } catch (const PoseRefused& error) {
-    refuse(error.reason, error.what());
-  } catch (const FrameError& error) {
-    refuse(sweep_guard_core::kTfFail, error.what());
-  } catch (const sweep_guard_core::SeveralPublishers& error) {
-    refuse(sweep_guard_core::kMultiPublisher, error.what());
-  } catch (const sweep_guard_core::OutOfOrder& error) {
-    refuse(sweep_guard_core::kOutOfOrder, error.what());
-  } catch (const std::exception& error) {  // InvalidInput, or out of memory
-    refuse(sweep_guard_core::kPoseInvalid, error.what());
-  }
+std::vector<sweep_guard_core::JointVariable> jointsOf(const Parameters& parameters) {
+  if (!parameters.articulated) return {};
+  return parameters.robot->robot.tree.variables();
 }
+
+}  // namespace
 
 PoseInput::PoseInput(const ros::NodeHandle& node, const LiveParameters& live, const PoseInputDependencies& dependencies)
     : fixed_frame_(live.initial().fixed_frame),
@@ -66,23 +67,27 @@ PoseInput::PoseInput(const ros::NodeHandle& node, const LiveParameters& live, co
       live_(live),
       frames_(dependencies.frames),
       monitor_(dependencies.monitor),
-      jumps_(live),
-      moving_frames_(fixed_frame_, {frames_, dependencies.frame_motions, monitor_, dependencies.queue, record_}),
+      queue_(dependencies.queue),
+      jumps_(tool_frame_, fixed_frame_, jointsOf(live.initial())),
+      moving_frames_(fixed_frame_, {frames_, dependencies.frame_motions, monitor_, queue_, record_}),
       late_(live, frames_),
-      path_(fixed_frame_, {frames_, dependencies.workpieces, moving_frames_, monitor_, dependencies.queue}) {
+      path_(fixed_frame_, frames_, dependencies.workpieces, moving_frames_) {
+  if (live.initial().tool_source != ToolSource::kTopic) late_.use(tool_frame_);  // before a pose, for what is refused
   frames_moved_ = frames_.onMove([this] { onFramesMoved(); });
+  transforms_refused_ = frames_.onRefusal([this] { onRefusal(); });
   if (live.initial().articulated) {
     articulated_ = std::make_unique<ArticulatedTool>(live);
     joints_ = subscribeBounded<sensor_msgs::JointState>(
         thread_.on(node), {kJointsTopic, kPosesQueued, kMaxJointsSize},
-        [this](const auto& event) { refuseWhatFails([&] { acceptJoints(event); }); },
+        std::bind(&PoseInput::onJoints, this, std::placeholders::_1),
         [this](const std::string& reason) { refuse(sweep_guard_core::kPoseInvalid, reason); });
   }
   if (live.initial().tool_source == ToolSource::kTf) {
     transforms_changed_ = frames_.onChange([this] { onTransforms(); });
   } else if (live.initial().tool_source == ToolSource::kTopic) {
     subscriber_ = subscribeBounded<geometry_msgs::PoseStamped>(
-        thread_.on(node), {kPoseTopic, kPosesQueued, kMaxMessageSize}, [this](const auto& event) { onMessage(event); },
+        thread_.on(node), {kPoseTopic, kPosesQueued, kMaxMessageSize},
+        std::bind(&PoseInput::onMessage, this, std::placeholders::_1),
         [this](const std::string& reason) { refuse(sweep_guard_core::kPoseInvalid, reason); });
   }
 }
@@ -97,25 +102,51 @@ void PoseInput::onMessage(const ros::MessageEvent<const geometry_msgs::PoseStamp
   countLost(event.getPublisherName(), msg.header.seq);
   const sweep_guard_core::Timestamps timestamps{fromMsg(msg.header.stamp), std::chrono::steady_clock::now()};
   if (!articulated_) record_.received(timestamps);
-  refuseWhatFails([&] { accept({timestamps, msg.header.frame_id, fromMsg(msg.pose)}, receipt()); });
+  try {
+    accept({timestamps, msg.header.frame_id, fromMsg(msg.pose), monitor_.checkpoint(), frames_.staticChanges()});
+  } catch (...) {
+    refuseCaught();
+  }
 }
 
-void PoseInput::acceptJoints(const ros::MessageEvent<const sensor_msgs::JointState>& event) {
-  const sensor_msgs::JointState& msg = *event.getConstMessage();
-  const sweep_guard_core::Timestamps timestamps{fromMsg(msg.header.stamp), std::chrono::steady_clock::now()};
-  const Receipt now = receipt();
-  begin(now);
-  requireStamp(timestamps.stamp);
-  if (live_.initial().tool_source == ToolSource::kJointStates) late_.use(tool_frame_);
-  articulated_->add(event.getPublisherName(), msg);
-  path_.note(timestamps.stamp, now.static_changes);
-  pushKnownPoses(timestamps.received, checkpoint_);
+void PoseInput::onJoints(const ros::MessageEvent<const sensor_msgs::JointState>& event) {
+  const sensor_msgs::JointState& joints = *event.getConstMessage();
+  const std::string* const named = articulated_->firstJointIn(joints);
+  named == nullptr ? passOver(joints) : acceptJoints(joints, event.getPublisherName(), *named);
+}
+
+// Its stamp says nothing of the tool, whose newest positions may still be on the way.
+void PoseInput::passOver(const sensor_msgs::JointState& joints) {
+  articulated_->noteForeign(joints);
+  reportSilence(now().stamp - live_.get()->limits.pose_timeout);
+}
+
+void PoseInput::acceptJoints(const sensor_msgs::JointState& joints, const std::string& sender,
+                             const std::string& named) {
+  const sweep_guard_core::Timestamps timestamps{fromMsg(joints.header.stamp), std::chrono::steady_clock::now()};
+  const Checkpoint checkpoint = monitor_.checkpoint();
+  const std::uint64_t static_changes = frames_.staticChanges();
+  begin(checkpoint);
+  try {
+    requireStamp(timestamps.stamp, named);
+    articulated_->add(sender, joints);
+  } catch (...) {
+    return refuseCaught("joint_states of " + sweep_guard_core::printable(sender) + ": ");
+  }
+  path_.note(timestamps.stamp, static_changes);
+  try {
+    pushKnownPoses(timestamps.received, checkpoint_);
+  } catch (...) {
+    refuseCaught();
+  }
   reportSilence(timestamps.stamp);
 }
 
 void PoseInput::reportSilence(sweep_guard_core::Time stamp) {
   const std::string silence = articulated_->silence(stamp);
-  if (!silence.empty()) monitor_.fault(sweep_guard_core::kPoseStale, silence);
+  if (silence.empty()) return;
+  record_.lacks(silence);
+  monitor_.fault(sweep_guard_core::kPoseStale, silence);
 }
 
 // Also of tool poses that came: the newest joint decides up to when all are known.
@@ -124,14 +155,17 @@ void PoseInput::pushKnownPoses(sweep_guard_core::SteadyTime received, const Chec
   while (articulated_->next(root, known_)) {
     if (articulated_->leavesOut()) monitor_.fault(sweep_guard_core::kPosesUnswept, kPassed);
     record_.received({known_.back().stamp, received});
-    const std::string jump = jumpTo(known_.back());
-    for (ArticulatedTool::Pose& pose : known_) pose.jump = jump;
     push(received, checkpoint);
   }
 }
 
-std::string PoseInput::jumpTo(const ArticulatedTool::Pose& state) {
-  std::string jump = jumps_.jumpTo(state);
+// The state is the last of the poses that the motion to it was cut into.
+std::string PoseInput::jumpTo(const sweep_guard_core::PoseWithFrames& state) {
+  repeated_.add(state.X_WT, state.state.positions);
+  const auto newest = live_.get();  // limits may change
+  const sweep_guard_core::PredictorOptions& limits = newest->guard.predictor;
+  std::string jump =
+      jumps_.add({state.stamp, state.X_WT, state.state.positions}, {limits.max_speed, limits.max_turn_rate});
   const std::string faster = jumps_.faster();
   if (!faster.empty()) record_.warn(faster);
   return jump;
@@ -160,23 +194,84 @@ void PoseInput::reportConflict() {
   log_.error("conflict", conflict);
 }
 
+// A static transform comes once: what it would have moved is not known until a good one comes.
+void PoseInput::reportRefusal() {
+  const std::string refusal = frames_.refusal();
+  if (!refusal.empty()) monitor_.fault(sweep_guard_core::kTfFail, refusal);
+}
+
+// Runs in the thread of the tf listener.
+void PoseInput::onRefusal() {
+  const std::string of_tool = frames_.refusalFor("tool");
+  const std::string refusal = of_tool.empty() ? frames_.refusal() : of_tool;
+  record_.error(refusal, /*refused=*/!of_tool.empty());
+  monitor_.fault(sweep_guard_core::kTfFail, refusal);
+}
+
 // Runs in the thread of the tf listener, or where static transforms are applied, one at a time.
 void PoseInput::onTransforms() {
   const std::optional<sweep_guard_core::Time> newest = frames_.newest(fixed_frame_, tool_frame_);
   if (newest == last_transform_) return;  // another transform has changed
   last_transform_ = newest;
-  if (!newest) return;
+  if (newest && *newest != sweep_guard_core::Time()) addPoseOfFrame(*newest, /*rests=*/false);
+}
+
+void PoseInput::addPoseOfFrame(sweep_guard_core::Time stamp, bool rests) {
   if (waiting_ >= kPosesQueued)
     return monitor_.fault(sweep_guard_core::kPosesUnswept, "tool poses from tf were dropped: too many wait");
-  const sweep_guard_core::Timestamps timestamps{*newest, std::chrono::steady_clock::now()};
-  const ReceivedPose pose{timestamps, tool_frame_, Eigen::Isometry3d::Identity()};
+  const sweep_guard_core::Timestamps timestamps{stamp, std::chrono::steady_clock::now()};
+  ReceivedPose pose{timestamps, tool_frame_, Eigen::Isometry3d::Identity(), monitor_.checkpoint(),
+                    frames_.staticChanges()};
   ++waiting_;
-  thread_.post([this, pose, now = receipt()] {
+  thread_.post([this, pose, rests]() mutable {
     --waiting_;
     if (!articulated_) record_.received(pose.timestamps);
-    const bool outdated = now.checkpoint.epoch < checkpoint_.epoch;  // joints have come meanwhile
-    refuseWhatFails([&] { accept(pose, outdated ? receipt() : now); });
+    if (pose.checkpoint.epoch < checkpoint_.epoch) {  // joints have come meanwhile
+      pose.checkpoint = monitor_.checkpoint();
+      pose.static_changes = frames_.staticChanges();
+    }
+    try {
+      accept(pose, rests);
+    } catch (...) {
+      refuseCaught();
+    }
+    if (rests) rested_until_ = pose.timestamps.stamp;
   });
+}
+
+// Half of the timeout, if that is shorter: a pose that waits for the processor is not stale yet.
+void PoseInput::addRestingPose() {
+  if (live_.initial().tool_source != ToolSource::kTf) return;
+  const auto parameters = live_.get();
+  const sweep_guard_core::Instant at = now();
+  const auto period = std::min(parameters->guard.cycle, parameters->limits.pose_timeout / 2);
+  const bool waits =
+      at.steady - rested_.steady < period && rested_.stamp <= at.stamp && at.stamp - rested_.stamp < period;
+  if (waits || at.stamp == sweep_guard_core::Time()) return;
+  if (frames_.newest(fixed_frame_, tool_frame_) != sweep_guard_core::Time()) return;
+  rested_ = at;
+  if (fixed_frame_ == tool_frame_)
+    return refuse(sweep_guard_core::kPoseInvalid, "tool_frame is fixed_frame, in which it never moves");
+  if (frames_.find(fixed_frame_, tool_frame_, at.stamp)) return addPoseOfFrame(at.stamp, /*rests=*/true);
+  refuse(sweep_guard_core::kPoseInvalid, "the transforms to '" + tool_frame_ + "' have the stamp 0: stamp each");
+}
+
+// Refuses an input for the exception that is being handled.
+// @param sender  in words, at the beginning of the message
+void PoseInput::refuseCaught(const std::string& sender) {
+  try {
+    throw;
+  } catch (const PoseRefused& error) {
+    refuse(error.reason, sender + error.what());
+  } catch (const FrameError& error) {
+    refuse(sweep_guard_core::kTfFail, sender + error.what());
+  } catch (const sweep_guard_core::SeveralPublishers& error) {
+    refuse(sweep_guard_core::kMultiPublisher, sender + error.what());
+  } catch (const sweep_guard_core::OutOfOrder& error) {
+    refuse(sweep_guard_core::kOutOfOrder, sender + error.what());
+  } catch (const std::exception& error) {  // InvalidInput, or out of memory
+    refuse(sweep_guard_core::kPoseInvalid, sender + error.what());
+  }
 }
 
 void PoseInput::refuse(Reason reason, const std::string& message) {
@@ -185,39 +280,38 @@ void PoseInput::refuse(Reason reason, const std::string& message) {
   log_.error(std::to_string(reason), "tool pose on " + source_ + " refused: " + message);
 }
 
-PoseInput::Receipt PoseInput::receipt() const {
-  const Checkpoint checkpoint = monitor_.checkpoint();
-  return {checkpoint, frames_.staticChanges()};
-}
-
 // Of each input, before it is looked at.
-void PoseInput::begin(const Receipt& receipt) {
-  if (!receipt.checkpoint.continues(checkpoint_)) {
+void PoseInput::begin(const Checkpoint& checkpoint) {
+  if (!checkpoint.continues(checkpoint_)) {
     pushWaiting();  // what can be
     late_.clear();
     path_.clear();
     if (articulated_) articulated_->reset();
     jumps_.reset();
+    rested_until_ = {};
   }
-  checkpoint_ = receipt.checkpoint;
+  checkpoint_ = checkpoint;
   // After the checkpoint: the sweep to this pose does not end the fault.
   if (hasSeveralPublishers()) {
     monitor_.fault(sweep_guard_core::kMultiPublisher, "several nodes publish tool poses on " + source_);
   }
   reportConflict();
+  reportRefusal();
 }
 
-void PoseInput::accept(ReceivedPose pose, const Receipt& receipt) {
-  begin(receipt);
-  const sweep_guard_core::Time stamp = pose.timestamps.stamp;
-  requireStamp(stamp);
+// Where a tool from tf ceases to rest, its first transforms may be older than its newest pose at rest, and the other way round.
+void PoseInput::accept(ReceivedPose pose, bool rests) {
+  begin(pose.checkpoint);
   const auto previous = late_.newest();
+  const sweep_guard_core::Time rested_until = rests ? previous.value_or(rested_until_) : rested_until_;
+  const sweep_guard_core::Time stamp = std::max(pose.timestamps.stamp, rested_until);
+  pose.timestamps.stamp = stamp;
+  requireStamp(stamp);
   if (previous && stamp < *previous) {
     throw PoseRefused(sweep_guard_core::kOutOfOrder, "stamp is older than the previous pose's");
   }
   late_.use(pose.frame);
-  path_.note(stamp, receipt.static_changes);
-  pose.checkpoint = checkpoint_;
+  path_.note(stamp, pose.static_changes);
   if (const auto located = late_.locate(pose)) return pushLocated(*located);
   pushWaiting();
   if (!late_.leaveOutIfFull()) return;
@@ -227,23 +321,25 @@ void PoseInput::accept(ReceivedPose pose, const Receipt& receipt) {
 
 // A pose that is refused does not hold up those after it.
 void PoseInput::pushWaiting() {
-  bool more = true;
-  const auto push_next = [&] {
-    const auto located = late_.locateNext();
-    more = located.has_value();
-    if (located) pushLocated(*located);
-  };
-  while (more) refuseWhatFails(push_next);
+  for (bool more = true; more;) {
+    try {
+      const auto located = late_.locateNext();
+      more = located.has_value();
+      if (located) pushLocated(*located);
+    } catch (...) {
+      refuseCaught();
+    }
+  }
 }
 
-void PoseInput::pushLocated(const LocatedPose& pose) {
+void PoseInput::pushLocated(const sweep_guard_core::QueuedPose& located) {
+  const auto& [pose, checkpoint] = located;
   if (!articulated_) {
-    known_.assign(1, {pose.stamp, pose.X_WT, {}, {}});
-    known_.back().jump = jumpTo(known_.back());
-    return push(pose.known, pose.checkpoint);
+    known_.assign(1, pose);
+    return push(pose.received, checkpoint);
   }
   articulated_->add(pose.stamp, pose.X_WT);
-  pushKnownPoses(pose.known, pose.checkpoint);
+  pushKnownPoses(pose.received, checkpoint);
   reportSilence(pose.stamp);
 }
 
@@ -257,12 +353,32 @@ void PoseInput::onFramesMoved() {
 void PoseInput::pushAllWaiting() {
   pushWaiting();
   if (!articulated_ || !late_.jointsWait()) return;
-  refuseWhatFails([this] { pushKnownPoses(std::chrono::steady_clock::now(), checkpoint_); });
+  try {
+    pushKnownPoses(std::chrono::steady_clock::now(), checkpoint_);
+  } catch (...) {
+    refuseCaught();
+  }
 }
 
 void PoseInput::push(sweep_guard_core::SteadyTime received, const Checkpoint& checkpoint) {
-  const auto changed_from = path_.push(known_, {received, checkpoint, late_.frame()});
-  if (changed_from) path_.repeat(applyStaticChanges(*changed_from), checkpoint);
+  const std::string jump = jumpTo(known_.back());
+  for (sweep_guard_core::PoseWithFrames& pose : known_) {
+    pose.received = received;
+    pose.jump = jump;
+  }
+  const auto changed_from = path_.place(known_, late_.frame(), checkpoint, placed_);
+  for (sweep_guard_core::QueuedPose& pose : placed_) {
+    if (!queue_.push(std::move(pose))) monitor_.fault(sweep_guard_core::kPosesUnswept, kTooMany);
+  }
+  if (changed_from) repeat(*changed_from, checkpoint);
+}
+
+// Queues the path since a change of static transforms where they say, from this stamp on.
+void PoseInput::repeat(sweep_guard_core::Time changed_from, const Checkpoint& checkpoint) {
+  path_.repeat(applyStaticChanges(changed_from), checkpoint, placed_);
+  for (sweep_guard_core::QueuedPose& pose : placed_) {
+    if (!queue_.push(std::move(pose))) monitor_.fault(sweep_guard_core::kPosesUnswept, kTooMany);
+  }
 }
 
 // Returns the frames that are followed and were placed anew, from this stamp on.
@@ -282,8 +398,7 @@ void PoseInput::applyLateChanges() {
   thread_.post([this, late] {
     pushAllWaiting();
     if (!late_.empty() || !late()) return;
-    const sweep_guard_core::Time changed_from = path_.endAtNewest(frames_.staticChanges());
-    path_.repeat(applyStaticChanges(changed_from), checkpoint_);
+    repeat(path_.endAtNewest(frames_.staticChanges()), checkpoint_);
   });
 }
 

@@ -11,11 +11,12 @@
 
 #include "guard/workpiece_store.h"
 #include "monitor/input_record.h"
+#include "monitor/repeated_positions.h"
 #include "monitor/work_queue.h"
+#include "prediction/tool_jumps.h"
 #include "ros/connection/bounded.h"
 #include "ros/input/articulated_tool.h"
 #include "ros/input/frames.h"
-#include "ros/input/jump_watch.h"
 #include "ros/input/late_poses.h"
 #include "ros/input/moving_frames.h"
 #include "ros/input/tool_path.h"
@@ -35,7 +36,7 @@ struct PoseInputDependencies {
 };
 
 /// Takes tool poses from the topic `tool_pose` or from tf, and positions of joints from `joint_states`, and refuses bad
-/// ones. LatePoses locates the poses in the fixed frame, ToolPath queues them.
+/// ones. LatePoses locates the poses in the fixed frame, ToolPath adds the frames of the workpieces; then they are queued.
 class PoseInput {
  public:
   PoseInput(const ros::NodeHandle& node, const LiveParameters& live, const PoseInputDependencies& dependencies);
@@ -45,39 +46,43 @@ class PoseInput {
   const sweep_guard_core::InputRecord& record() const { return record_; }
   const std::string& source() const { return source_; }  ///< resolved topics, or the tf frames
   std::optional<std::uint32_t> publishers() const;       ///< of the topic; empty for tf
-  std::uint64_t lost() const { return lost_; }           ///< poses that were sent and did not arrive, by header.seq
+  const sweep_guard_core::RepeatedPositions& repeated() const { return repeated_; }
+  std::uint64_t lost() const { return lost_; }  ///< poses that were sent and did not arrive, by header.seq
 
   /// Applies static transforms that have changed though no pose has come for `timing/pose_timeout`. Any thread.
   void applyLateChanges();
 
+  /// Takes a tool from tf that no transform moves for one at rest: adds its pose of now, at timing/min_rate at least, by either clock.
+  /// To be called often, by one thread.
+  void addRestingPose();
+
  private:
   using Checkpoint = sweep_guard_core::WarningMonitor::Checkpoint;
 
-  // What was so when an input was received.
-  struct Receipt {
-    Checkpoint checkpoint;         // taken first: a pose that does not know of a change does not end its fault
-    std::uint64_t static_changes;  // as Frames counts them
-  };
   void onMessage(const ros::MessageEvent<const geometry_msgs::PoseStamped>& event);
   void countLost(const std::string& publisher, std::uint32_t sequence);
   bool hasSeveralPublishers() const;
   void reportConflict();
+  void reportRefusal();
+  void onRefusal();
   void onTransforms();
-  template <typename Accept>
-  void refuseWhatFails(const Accept& accept);
-  void accept(ReceivedPose pose, const Receipt& receipt);
-  void acceptJoints(const ros::MessageEvent<const sensor_msgs::JointState>& event);
-  Receipt receipt() const;
-  void begin(const Receipt& receipt);
+  void addPoseOfFrame(sweep_guard_core::Time stamp, bool rests);
+  void accept(ReceivedPose pose, bool rests = false);
+  void onJoints(const ros::MessageEvent<const sensor_msgs::JointState>& event);
+  void passOver(const sensor_msgs::JointState& joints);
+  void acceptJoints(const sensor_msgs::JointState& joints, const std::string& sender, const std::string& named);
+  void begin(const Checkpoint& checkpoint);
   void onFramesMoved();
   void pushWaiting();
   void pushAllWaiting();
-  void pushLocated(const LocatedPose& pose);
+  void pushLocated(const sweep_guard_core::QueuedPose& located);
   void pushKnownPoses(sweep_guard_core::SteadyTime received, const Checkpoint& checkpoint);
   void push(sweep_guard_core::SteadyTime received, const Checkpoint& checkpoint);
   void reportSilence(sweep_guard_core::Time stamp);
+  void repeat(sweep_guard_core::Time changed_from, const Checkpoint& checkpoint);
   std::set<std::string> applyStaticChanges(sweep_guard_core::Time from);
-  std::string jumpTo(const ArticulatedTool::Pose& state);
+  std::string jumpTo(const sweep_guard_core::PoseWithFrames& state);
+  void refuseCaught(const std::string& sender = "");
   void refuse(sweep_guard_core::Reason reason, const std::string& message);
 
   const std::string fixed_frame_;
@@ -87,12 +92,16 @@ class PoseInput {
   const LiveParameters& live_;
   Frames& frames_;
   sweep_guard_core::WarningMonitor& monitor_;
+  sweep_guard_core::WorkQueue& queue_;
 
-  Checkpoint checkpoint_;  // of the previous input
-  JumpWatch jumps_;
+  Checkpoint checkpoint_;                                 // of the previous input
+  sweep_guard_core::ToolJumps jumps_;                     // in the states that come in
+  sweep_guard_core::RepeatedPositions repeated_;          // of these states
   std::optional<sweep_guard_core::Time> last_transform_;  // used by the tf listener's thread only
-  std::string publisher_;                                 // of the previous pose
-  std::uint32_t sequence_ = 0;                            // of the previous pose
+  sweep_guard_core::Instant rested_{};   // when addRestingPose() last added one; used by its thread only
+  sweep_guard_core::Time rested_until_;  // stamp of the newest pose of a tool from tf at rest
+  std::string publisher_;                // of the previous pose
+  std::uint32_t sequence_ = 0;           // of the previous pose
   std::atomic<std::uint64_t> lost_ = 0;
   std::atomic<size_t> waiting_ = 0;  // poses from tf
   LogThrottle log_;
@@ -101,12 +110,14 @@ class PoseInput {
   LatePoses late_;
   ToolPath path_;
 
-  std::unique_ptr<ArticulatedTool> articulated_;  // null for a rigid tool
-  std::vector<ArticulatedTool::Pose> known_;      // up to the newest state or pose
+  std::unique_ptr<ArticulatedTool> articulated_;         // null for a rigid tool
+  std::vector<sweep_guard_core::PoseWithFrames> known_;  // up to the newest state or pose
+  std::vector<sweep_guard_core::QueuedPose> placed_;     // the same, to be queued
 
   QueueThread thread_;  // before the subscribers, which use its queue
   std::shared_ptr<void> transforms_changed_;
   std::shared_ptr<void> frames_moved_;
+  std::shared_ptr<void> transforms_refused_;
   BoundedSubscriber subscriber_;
   BoundedSubscriber joints_;
 };

@@ -37,19 +37,21 @@ void ToolPath::note(Time stamp, std::uint64_t static_changes) {
   newest_stamp_ = std::max(newest_stamp_.value_or(stamp), stamp);
 }
 
-std::optional<Time> ToolPath::push(std::vector<ArticulatedTool::Pose>& poses, const Origin& origin) {
+std::optional<Time> ToolPath::place(std::vector<PoseWithFrames>& poses, const std::string& frame,
+                                    const Checkpoint& checkpoint, std::vector<sweep_guard_core::QueuedPose>& placed) {
   useWorkpieceFrames();
   const Time stamp = poses.back().stamp;
   const bool changed = changed_after_ && *changed_after_ < stamp;
   const bool twice = changed && placed_.X_WF;
   const Checkpoint before = placed_.checkpoint;
   path_.clear();
+  placed.clear();
   if (twice) path_.push_back(placed_);
-  for (ArticulatedTool::Pose& pose : poses) {
-    PoseWithFrames placed = place(pose, origin);
+  for (PoseWithFrames& pose : poses) {
+    placeFrames(pose, frame, checkpoint);
     if (changed) path_.push_back(placed_);
-    if (twice) placed.stamp = std::min(placed.stamp, stamp - kBeforeChange);
-    if (!changed || twice) queue(std::move(placed), twice ? before : origin.checkpoint);
+    if (twice) pose.stamp = std::min(pose.stamp, stamp - kBeforeChange);
+    if (!changed || twice) placed.push_back({std::move(pose), twice ? before : checkpoint});
   }
   if (!changed) return std::nullopt;
   changed_after_.reset();
@@ -69,12 +71,14 @@ Time ToolPath::endAtNewest(std::uint64_t static_changes) {
 }
 
 // What is placed anew does not move on the path, but for the tool.
-void ToolPath::repeat(std::set<std::string> frames, const Checkpoint& checkpoint) {
+void ToolPath::repeat(std::set<std::string> frames, const Checkpoint& checkpoint,
+                      std::vector<sweep_guard_core::QueuedPose>& placed) {
+  placed.clear();
   if (path_.empty()) return;
   sweep_guard_core::PlacedAnew placed_anew;
   placed_anew.frames = std::move(frames);
   placed_anew.tool = movePath();
-  const MovingFrames::Poses X_WM = dependencies_.moving_frames.resting(*workpiece_frames_);
+  const MovingFrames::Poses X_WM = moving_frames_.resting(*workpiece_frames_);
   placed_anew.frames.merge(movedFrames(path_.front().pose.X_WM, X_WM));
   const sweep_guard_core::SteadyTime received = path_.back().pose.received;
   for (size_t i = 0; i < path_.size(); ++i) {
@@ -85,11 +89,11 @@ void ToolPath::repeat(std::set<std::string> frames, const Checkpoint& checkpoint
     pose.jump.clear();
     if (i < anew_) pose.anew = placed_anew;
     placed_anew.goes_on = true;
-    queue(pose, checkpoint);
+    placed.push_back({pose, checkpoint});
   }
   placed_ = path_.back();
   placed_.pose.anew.reset();
-  placed_.X_WF = dependencies_.frames.find(fixed_frame_, placed_.frame, repeat_at_);
+  placed_.X_WF = frames_.find(fixed_frame_, placed_.frame, repeat_at_);
 }
 
 void ToolPath::clear() {
@@ -98,28 +102,19 @@ void ToolPath::clear() {
 }
 
 void ToolPath::useWorkpieceFrames() {
-  const auto frames = dependencies_.workpieces.frames();
+  const auto frames = workpieces_.frames();
   if (frames == workpiece_frames_) return;
   workpiece_frames_ = frames;
-  dependencies_.frames.use("workpieces", fixed_frame_, *frames);
+  frames_.use("workpieces", fixed_frame_, *frames);
 }
 
-PoseWithFrames ToolPath::place(ArticulatedTool::Pose& pose, const Origin& origin) {
-  auto& [stamp, X_WT, bodies, state, jump] = pose;
-  if (placed_.X_WF) stamp = std::max(stamp, placed_.pose.stamp);  // after a change that was applied late
-  PoseWithFrames placed{stamp, origin.received, X_WT, {}, std::move(bodies), std::move(state)};
-  placed.jump = std::move(jump);
-  placed.X_WM = dependencies_.moving_frames.locate(*workpiece_frames_, stamp);
-  placed_.X_WF = dependencies_.frames.find(fixed_frame_, origin.frame, stamp);
-  placed_.frame = origin.frame;
-  placed_.checkpoint = origin.checkpoint;
-  placed_.pose = placed;
-  return placed;
-}
-
-void ToolPath::queue(PoseWithFrames pose, const Checkpoint& checkpoint) {
-  if (dependencies_.queue.push({std::move(pose), checkpoint})) return;
-  dependencies_.monitor.fault(sweep_guard_core::kPosesUnswept, "tool poses were dropped: too many wait to be swept");
+void ToolPath::placeFrames(PoseWithFrames& pose, const std::string& frame, const Checkpoint& checkpoint) {
+  if (placed_.X_WF) pose.stamp = std::max(pose.stamp, placed_.pose.stamp);  // after a change that was applied late
+  pose.X_WM = moving_frames_.locate(*workpiece_frames_, pose.stamp);
+  placed_.X_WF = frames_.find(fixed_frame_, frame, pose.stamp);
+  placed_.frame = frame;
+  placed_.checkpoint = checkpoint;
+  placed_.pose = pose;
 }
 
 // Returns whether the tool is elsewhere on the path. A pose that tf has forgotten moves as the one after it.
@@ -127,7 +122,7 @@ bool ToolPath::movePath() {
   bool moved = false;
   Eigen::Isometry3d motion_W = Eigen::Isometry3d::Identity();
   for (auto placed = path_.rbegin(); placed != path_.rend(); ++placed) {
-    const auto X_WF = dependencies_.frames.find(fixed_frame_, placed->frame, placed->pose.stamp);
+    const auto X_WF = frames_.find(fixed_frame_, placed->frame, placed->pose.stamp);
     if (X_WF && placed->X_WF) {
       const bool rests = X_WF->matrix() == placed->X_WF->matrix();
       motion_W = rests ? Eigen::Isometry3d::Identity() : *X_WF * placed->X_WF->inverse();

@@ -11,7 +11,6 @@
 
 #include "guard/workpiece_store.h"
 #include "monitor/work_queue.h"
-#include "ros/input/articulated_tool.h"
 #include "ros/input/frames.h"
 #include "ros/input/moving_frames.h"
 #include "sweep_guard/guard/pose_with_frames.h"
@@ -19,46 +18,41 @@
 
 namespace sweep_guard_ros {
 
-struct ToolPathDependencies {
-  Frames& frames;
-  const sweep_guard_core::WorkpieceStore& workpieces;
-  MovingFrames& moving_frames;
-  sweep_guard_core::WarningMonitor& monitor;
-  sweep_guard_core::WorkQueue& queue;
-};
-
-/// Queues poses of the tool with the frames of the workpieces at their stamps. After a static transform has changed, the path
-/// to the next pose is swept where things were, then where they are: push() queues it in the old place, the caller applies the
-/// changes, repeat() queues it in the new one. Several changes count as one. One thread.
+/// Adds the frames of the workpieces to poses of the tool, which are queued then. After a static transform has changed, the path
+/// to the next pose is swept where things were, then where they are: place() gives it in the old place, the caller applies the
+/// changes, repeat() gives it in the new one. Several changes count as one. One thread.
 class ToolPath {
  public:
   using Checkpoint = sweep_guard_core::WarningMonitor::Checkpoint;
 
-  ToolPath(const std::string& fixed_frame, const ToolPathDependencies& dependencies)
-      : fixed_frame_(fixed_frame), dependencies_(dependencies) {}
+  ToolPath(const std::string& fixed_frame, Frames& frames, const sweep_guard_core::WorkpieceStore& workpieces,
+           MovingFrames& moving_frames)
+      : fixed_frame_(fixed_frame), frames_(frames), workpieces_(workpieces), moving_frames_(moving_frames) {}
 
-  /// Notes an input that is accepted, before it is pushed.
+  /// Notes an input that is accepted, before it is placed.
   /// @param static_changes  as Frames counted them when it was received
   void note(sweep_guard_core::Time stamp, std::uint64_t static_changes);
 
-  struct Origin {
-    sweep_guard_core::SteadyTime received;
-    Checkpoint checkpoint;     ///< when it was received
-    const std::string& frame;  ///< that the newest pose of the tool was given in
-  };
-  /// Queues the poses of a motion.
-  /// @param poses  at least one; their contents are moved from
+  /// Places the poses of a motion.
+  /// @param poses        at least one; their contents are moved from
+  /// @param frame        that the newest pose of the tool was given in
+  /// @param checkpoint   when they were received
+  /// @param[out] placed  overwritten
   /// @returns the stamp from which on changed static transforms are to be applied, before repeat(); empty: none
-  std::optional<sweep_guard_core::Time> push(std::vector<ArticulatedTool::Pose>& poses, const Origin& origin);
+  std::optional<sweep_guard_core::Time> place(std::vector<sweep_guard_core::PoseWithFrames>& poses,
+                                              const std::string& frame, const Checkpoint& checkpoint,
+                                              std::vector<sweep_guard_core::QueuedPose>& placed);
 
   /// Ends the path at the newest pose, for changes that no pose comes after.
   /// @param static_changes  as Frames counts them
-  /// @returns as push()
+  /// @returns as place()
   sweep_guard_core::Time endAtNewest(std::uint64_t static_changes);
 
-  /// Queues the path since the change again, where things are.
-  /// @param frames  that are followed and were placed anew
-  void repeat(std::set<std::string> frames, const Checkpoint& checkpoint);
+  /// Places the path since the change again, where things are.
+  /// @param frames       that are followed and were placed anew
+  /// @param[out] placed  overwritten
+  void repeat(std::set<std::string> frames, const Checkpoint& checkpoint,
+              std::vector<sweep_guard_core::QueuedPose>& placed);
 
   void clear();  ///< forgets where the tool was
 
@@ -72,12 +66,13 @@ class ToolPath {
   };
 
   void useWorkpieceFrames();
-  sweep_guard_core::PoseWithFrames place(ArticulatedTool::Pose& pose, const Origin& origin);
-  void queue(sweep_guard_core::PoseWithFrames pose, const Checkpoint& checkpoint);
+  void placeFrames(sweep_guard_core::PoseWithFrames& pose, const std::string& frame, const Checkpoint& checkpoint);
   bool movePath();
 
   const std::string fixed_frame_;
-  const ToolPathDependencies dependencies_;
+  Frames& frames_;
+  const sweep_guard_core::WorkpieceStore& workpieces_;
+  MovingFrames& moving_frames_;
   std::shared_ptr<const std::set<std::string>> workpiece_frames_;  // that are in use
   std::uint64_t static_changes_ = 0;                               // by the newest input
   std::optional<sweep_guard_core::Time> newest_stamp_;             // of all inputs

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "common/number_text.h"
+
 namespace sweep_guard_ros {
 namespace {
 
@@ -19,7 +21,8 @@ bool TransformClock::hasGoneBack(const sweep_guard_core::Instant& now) {
 
 std::string TransformClock::refusal(sweep_guard_core::Time stamp, const sweep_guard_core::Instant& now) const {
   if (now.stamp == sweep_guard_core::Time()) return "";
-  if (stamp > now.stamp + kMaxLead) return "its stamp lies more than 10 s in the future";
+  if (stamp > now.stamp + kMaxLead)
+    return "its stamp lies " + sweep_guard_core::inSeconds(stamp - now.stamp) + " in the future, more than 10 s";
   const bool just_went_back = went_back_ && now.steady < *went_back_ + kOnItsWay;
   return just_went_back && stamp > now.stamp + kMaxLeadThen ? "its stamp is of the time before it went back" : "";
 }

@@ -7,7 +7,6 @@
 #include <tuple>
 #include <utility>
 
-#include "ros/connection/sole_publisher.h"
 #include "ros/merger/heard_warning.h"
 #include "ros/output/flush.h"
 #include "ros/output/run_id.h"
@@ -28,7 +27,6 @@ constexpr auto kTickPeriod = std::chrono::milliseconds(10);
 constexpr auto kPeriod = std::chrono::milliseconds(45);  // 20 Hz at least, looked at in every tick
 constexpr auto kFlagPeriod = std::chrono::milliseconds(100);
 constexpr auto kReportPeriod = std::chrono::seconds(1);
-constexpr size_t kMaxMessageSize = 64 << 20;
 constexpr size_t kMaxGuards = 64;
 
 std::vector<std::string> readGuards(ParameterReader& read) {
@@ -41,7 +39,7 @@ std::vector<std::string> readGuards(ParameterReader& read) {
 }
 
 sweep_guard_core::Duration readTimeout(ParameterReader& read) {
-  const double longest = sweep_guard_core::toSeconds(WarningMerger::kValid);
+  const double longest = sweep_guard_core::toSeconds(sweep_guard_core::kWarningValid);
   return sweep_guard_core::fromSeconds(read.number("timeout", longest, {0.05, longest, "s"}));
 }
 
@@ -110,21 +108,9 @@ void WarningMergerNode::start() {
 }
 
 BoundedSubscriber WarningMergerNode::subscribe(const ros::NodeHandle& node, size_t guard, const std::string& topic) {
-  const auto refuse = [this, topic](const std::string& reason) {
-    log_.error(topic, "message on " + topic + " refused: " + reason);
-  };
-  using Event = ros::MessageEvent<const sweep_guard::Warning>;
-  return subscribeBounded<sweep_guard::Warning>(
-      thread_.on(node), {topic, 10, kMaxMessageSize},
-      [this, guard, refuse, sole = SolePublisher(WarningMerger::kValid)](const Event& event) mutable {
-        try {
-          if (!sole.alone(event.getPublisherName(), now().steady)) throw InvalidInput("several nodes publish it");
-          hear(guard, *event.getConstMessage());
-        } catch (const InvalidInput& error) {
-          refuse(error.what());
-        }
-      },
-      refuse);
+  return subscribeToWarning(
+      thread_.on(node), topic, [this, guard](const sweep_guard::Warning& message) { hear(guard, message); },
+      [this, topic](const std::string& reason) { log_.error(topic, "message on " + topic + " refused: " + reason); });
 }
 
 void WarningMergerNode::hear(size_t guard, const sweep_guard::Warning& message) {
@@ -166,7 +152,7 @@ void WarningMergerNode::publishFlags() {
 
 // Called under the lock.
 sweep_guard::Warning WarningMergerNode::merged(const sweep_guard_core::Instant& now) const {
-  const sweep_guard_core::MergedWarning all = merger_.merged(now);
+  const sweep_guard_core::HeardWarning all = merger_.merged(now);
   sweep_guard::Warning message = all.leader && !ending_ ? newest_[*all.leader] : sweep_guard::Warning();
   message.valid_until = toMsg(all.valid_until);
   if (ending_) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/guarded_by.h"
 #include "monitor/warning_merger.h"
 #include "ros/connection/bounded.h"
 #include "ros/connection/master_watch.h"
@@ -14,7 +15,6 @@
 #include "ros/process/log_throttle.h"
 #include "ros/threads/queue_thread.h"
 #include "ros/threads/timer_thread.h"
-#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/ros/parameters/parameter_reader.h"
 
 namespace sweep_guard_ros {

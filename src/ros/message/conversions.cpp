@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <initializer_list>
 #include <limits>
+#include <string>
 
 #include "sweep_guard/common/error.h"
 
@@ -58,12 +61,28 @@ Eigen::Vector3d toEigen(const Vector& v) {
   return {v.x, v.y, v.z};
 }
 
+std::string shortText(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+std::string inBrackets(std::initializer_list<double> values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "(" : ", ") + shortText(value);
+  return text + ")";
+}
+
 Eigen::Isometry3d rigid(const Eigen::Vector3d& translation, const geometry_msgs::Quaternion& rotation) {
   if (!(translation.cwiseAbs().maxCoeff() <= sweep_guard_core::kMaxCoordinate) || translation.hasNaN()) {
-    throw InvalidInput("position is NaN, infinite or beyond 1e7 m");
+    throw InvalidInput("position is NaN, infinite or beyond 1e7 m: " +
+                       inBrackets({translation.x(), translation.y(), translation.z()}));
   }
   const Eigen::Quaterniond q(rotation.w, rotation.x, rotation.y, rotation.z);
-  if (!(std::abs(q.norm() - 1.0) <= 0.1)) throw InvalidInput("orientation is not a unit quaternion");
+  if (!(std::abs(q.norm() - 1.0) <= 0.1)) {
+    throw InvalidInput("orientation is not a unit quaternion: the length of " +
+                       inBrackets({q.x(), q.y(), q.z(), q.w()}) + " is " + shortText(q.norm()));
+  }
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = q.normalized().toRotationMatrix();
   pose.translation() = translation;
@@ -146,8 +165,7 @@ geometry_msgs::Pose toMsg(const Eigen::Isometry3d& pose) {
   return msg;
 }
 
-sweep_guard_core::TriangleMesh fromMsg(const shape_msgs::Mesh& mesh, size_t max_triangles,
-                                       sweep_guard_core::SurfaceKind surface) {
+sweep_guard_core::TriangleMesh fromMsg(const shape_msgs::Mesh& mesh, size_t max_triangles, bool is_sheet) {
   if (mesh.triangles.size() > max_triangles) {
     throw InvalidInput(std::to_string(mesh.triangles.size()) + " triangles exceed limits/max_triangles, " +
                        std::to_string(max_triangles));
@@ -164,7 +182,7 @@ sweep_guard_core::TriangleMesh fromMsg(const shape_msgs::Mesh& mesh, size_t max_
     const auto& index = triangle.vertex_indices;
     triangles.push_back({index[0], index[1], index[2]});
   }
-  return sweep_guard_core::TriangleMesh(vertices, std::move(triangles), surface);
+  return sweep_guard_core::TriangleMesh(vertices, std::move(triangles), is_sheet);
 }
 
 sweep_guard::PredictedPose toMsg(const sweep_guard_core::PredictedPose& pose, sweep_guard_core::Duration age) {

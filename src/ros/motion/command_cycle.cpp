@@ -13,6 +13,7 @@ namespace {
 
 using sweep_guard_core::Instant;
 using sweep_guard_core::Permission;
+using sweep_guard_core::PermissionCause;
 
 constexpr sweep_guard_core::Duration kShortest = std::chrono::milliseconds(1);  // step of a pose
 constexpr double kLate = 1.5;                                                   // periods after which a command is late
@@ -23,25 +24,27 @@ CommandCycle::CommandCycle(const ros::NodeHandle& node, const ros::NodeHandle& p
                            const MotionParameters& parameters, const CommandCycleSources& sources)
     : parameters_(parameters),
       sources_(sources),
-      frames_(sources.frames, parameters),
       topic_(node.resolveName(CommandPort::kTopic)),
       guard_(parameters.options),
-      period_(parameters.options.permission.command_timeout),
-      port_(makeCommandPort(thread_.on(node), parameters, frames_,
-                            {[this](const auto& received) { onCommand(received); },
-                             [this](const std::string& reason) { refuse(reason); }})),
+      period_(parameters.options.command_timeout),
+      gaps_(parameters.options.command_timeout, "command_timeout"),
+      port_(makeCommandPort(
+          thread_.on(node), parameters, sources.frames,
+          [this](const auto& message, const auto& at) { onCommand(message, at); },
+          [this](const std::string& reason) { refuse(reason); })),
       rebase_(advertiseRebase(thread_.on(private_node))) {}
 
-void CommandCycle::onCommand(const CommandPort::Received& received) {
-  record_.received(received.timestamps);
+void CommandCycle::onCommand(const CommandPort::Message& message, const sweep_guard_core::Timestamps& timestamps) {
+  record_.received(timestamps);
   const sweep_guard_core::Lock lock(mutex_);
-  port_->take(received);
-  period_.add(received.timestamps.received);
+  port_->take(message);
+  period_.add(timestamps.received);
+  gaps_.received(timestamps);
   const Instant at = now();
   if (!command_) sent_ = at.steady;  // the first one after a pause: a pose moves on only from the second one on
-  command_ = received.timestamps;
+  command_ = timestamps;
   halts_ = 0;
-  limitNewest(at, /*only_if_changed=*/false);
+  limitNewest(at, Sending::kNew);
 }
 
 void CommandCycle::refuse(const std::string& reason) {
@@ -74,29 +77,34 @@ void CommandCycle::publishHold(HoldPublisher& hold) {
 
 void CommandCycle::update(const Instant& at) {
   if (!command_) return;
-  if (at.steady - command_->received > parameters_.options.permission.command_timeout) return halt(at);
+  if (at.steady - command_->received > parameters_.options.command_timeout) return halt(at);
   if (!sent_W_) return;  // refused
-  GuardInput::Newest newest = sources_.guard.newest();
-  const bool decided_anew = guard_.permission(takeInputs(newest), *command_, at).permission != permission_;
+  const bool decided_anew = guard_.permission(inputs(), *command_, at).permission != permission_;
   const bool late = !port_->isPose() && at.steady - sent_ > kLate * period_.longest();
-  if (decided_anew || late) limitNewest(at, /*only_if_changed=*/true);
+  const bool repeats = port_->repeats() && at.steady - published_ >= kRepeatPeriod;
+  if (decided_anew || late || repeats) limitNewest(at, repeats ? Sending::kRepeated : Sending::kIfChanged);
 }
 
 bool CommandCycle::letsThrough(const Instant& at) const {
-  GuardInput::Newest newest = sources_.guard.newest();
-  return guard_.permission(takeInputs(newest), {at.stamp, at.steady}, at).permission != Permission::kStop;
+  return guard_.permission(inputs(), {at.stamp, at.steady}, at).permission != Permission::kStop;
 }
 
-// A command that is late is limited again at the next tick.
+// A command that is late or repeated is limited again at the next tick.
 sweep_guard_core::Duration CommandCycle::longestInForce() const {
   const sweep_guard_core::Duration longest = period_.longest();
-  return port_->isPose() ? longest
-                         : std::chrono::duration_cast<sweep_guard_core::Duration>(kLate * longest) + kTickPeriod;
+  const sweep_guard_core::Duration late =
+      port_->isPose() ? longest : std::chrono::duration_cast<sweep_guard_core::Duration>(kLate * longest) + kTickPeriod;
+  return port_->repeats() ? std::min(late, kRepeatPeriod + kTickPeriod) : late;
 }
 
 sweep_guard_core::Duration CommandCycle::period() const {
   const sweep_guard_core::Lock lock(mutex_);
   return longestInForce();
+}
+
+std::string CommandCycle::rarity() const {
+  const sweep_guard_core::Lock lock(mutex_);
+  return gaps_.rarity(std::chrono::steady_clock::now());
 }
 
 ros::ServiceServer CommandCycle::advertiseRebase(ros::NodeHandle node) {
@@ -108,8 +116,7 @@ ros::ServiceServer CommandCycle::advertiseRebase(ros::NodeHandle node) {
 }
 
 bool CommandCycle::onRebase(Trigger::Request& /*request*/, Trigger::Response& response) {
-  response.success = parameters_.command_type == CommandType::kPoseStamped &&
-                     parameters_.follower.mode == sweep_guard_core::PoseMode::kIncremental;
+  response.success = parameters_.command_type == CommandType::kPoseStamped && parameters_.incremental;
   response.message = response.success ? "the next pose moves nothing"
                                       : "command_type is not pose_stamped, or command_mode is not incremental";
   const sweep_guard_core::Lock lock(mutex_);
@@ -117,34 +124,49 @@ bool CommandCycle::onRebase(Trigger::Request& /*request*/, Trigger::Response& re
   return true;
 }
 
-sweep_guard_core::MotionInputs CommandCycle::takeInputs(GuardInput::Newest& newest) const {
-  newest.inputs.pose = sources_.tool_pose.newest();
-  return std::move(newest.inputs);
+sweep_guard_core::MotionInputs CommandCycle::inputs(sweep_guard::Proximity::ConstPtr* planes) const {
+  sweep_guard_core::MotionInputs inputs = sources_.guard.inputs(planes);
+  inputs.pose = sources_.tool_pose.newest();
+  return inputs;
 }
 
-void CommandCycle::limitNewest(const Instant& at, bool only_if_changed) {
-  GuardInput::Newest newest = sources_.guard.newest();
-  const sweep_guard_core::MotionInputs known = takeInputs(newest);
+void CommandCycle::limitNewest(const Instant& at, Sending sending) {
+  sweep_guard::Proximity::ConstPtr planes;
+  const sweep_guard_core::MotionInputs known = inputs(&planes);
   if (waitsForRelease(known, at)) return sendZero(at);
   try {
     sweep_guard_core::MotionCommand command = port_->read(known, cycleAt(at));
     command.timestamps = *command_;
     command.period = longestInForce();
     const sweep_guard_core::GuardedMotion motion = guard_.guard(known, command, at);
-    if (!only_if_changed || port_->isPose() || sent_W_ != motion.twist_W) port_->send(motion);
+    if (sending != Sending::kIfChanged || port_->isPose() || sent_W_ != motion.twist_W) {
+      port_->send(motion, /*again=*/sending != Sending::kNew);
+      published_ = at.steady;
+    }
     sent_W_ = motion.twist_W;
     permission_ = motion.decision.permission;
-    sources_.status.update(statusOf(motion, newest.planes.get(), port_->standingLead()));
+    sweep_guard::MotionStatus status = statusOf(motion, planes.get(), port_->standingLead());
+    explain(motion.decision.cause, at, status);
+    sources_.status.update(std::move(status));
   } catch (const sweep_guard_core::Error& error) {
-    if (!only_if_changed) record_.error(error.what(), /*refused=*/true);
+    if (sending == Sending::kNew) record_.error(error.what(), /*refused=*/true);
     sendZero(at);
     sources_.status.update(refusedStatus(error.what()));
   }
   sent_ = at.steady;
 }
 
+// What is done does not change, but what to do about it is said.
+void CommandCycle::explain(PermissionCause cause, const Instant& at, sweep_guard::MotionStatus& status) const {
+  std::string why;
+  if (cause == PermissionCause::kNoWarning) why = sources_.guard.absence();
+  if (cause == PermissionCause::kOldCommand) why = gaps_.tooOld(at);
+  if (!why.empty()) status.text = "stopped: " + why;
+}
+
 CommandPort::Cycle CommandCycle::cycleAt(const Instant& at) const {
-  return {at, std::clamp(at.steady - sent_, kShortest, period_.longest()), period_.longest()};
+  const sweep_guard_core::Duration period = longestInForce();
+  return {at, std::clamp(at.steady - sent_, kShortest, period), period};
 }
 
 // MoveIt Servo, which listens to the scale, takes no other type.
@@ -155,18 +177,20 @@ bool CommandCycle::waitsForRelease(const sweep_guard_core::MotionInputs& known, 
 
 void CommandCycle::sendZero(const Instant& at) {
   guard_.stop(at.steady);
-  GuardInput::Newest newest = sources_.guard.newest();
-  port_->sendZero(takeInputs(newest), cycleAt(at));
+  port_->sendZero(inputs(), cycleAt(at));
   sent_W_.reset();
   permission_ = Permission::kStop;
   sent_ = at.steady;
+  published_ = at.steady;
 }
 
 // At the period that the commands had.
 void CommandCycle::halt(const Instant& at) {
   if (halts_ > 0 && at.steady - sent_ < period_.mean()) return;
   sendZero(at);
-  sources_.status.update(idleStatus({Permission::kStop, sweep_guard_core::PermissionCause::kOldCommand}));
+  sweep_guard::MotionStatus status = idleStatus({Permission::kStop, PermissionCause::kOldCommand});
+  explain(PermissionCause::kOldCommand, at, status);
+  sources_.status.update(std::move(status));
   ++halts_;
   if (parameters_.halt_messages == 0 || halts_ < parameters_.halt_messages) return;
   command_.reset();

@@ -5,7 +5,9 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
+#include "common/guarded_by.h"
 #include "monitor/input_record.h"
 #include "ros/motion/command_frames.h"
 #include "ros/motion/command_port.h"
@@ -15,7 +17,7 @@
 #include "ros/motion/status_publisher.h"
 #include "ros/motion/tool_pose_input.h"
 #include "ros/threads/queue_thread.h"
-#include "sweep_guard/common/mutex.h"
+#include "sweep_guard/motion/command_gaps.h"
 #include "sweep_guard/motion/command_period.h"
 #include "sweep_guard/motion/motion_guard.h"
 
@@ -30,7 +32,8 @@ struct CommandCycleSources {
 };
 
 /// Sends what is let through of each command, in the thread that receives it. Between commands, tick() limits the
-/// newest one again if it is late or may no longer be let through; when the commands stop, it sends zeros. After a
+/// newest one again if it is late or may no longer be let through, and repeats it each kRepeatPeriod, so that what
+/// follows may stop on a shorter silence than the commands'. When the commands stop, it sends zeros. After a
 /// stop, a stamped twist goes on once HoldPublisher was heard; until then the status stays.
 class CommandCycle {
  public:
@@ -41,6 +44,7 @@ class CommandCycle {
   void start(Supervisor& supervisor) { thread_.start(supervisor, {"commands", sweep_guard_core::Stage::kReceive}); }
 
   static constexpr sweep_guard_core::Duration kTickPeriod = std::chrono::milliseconds(5);
+  static constexpr sweep_guard_core::Duration kRepeatPeriod = std::chrono::milliseconds(50);
   void tick();  ///< to be called each kTickPeriod
 
   /// Publishes whether a command would be let through now in some part: the guard knows, and is not silent. If not, zero
@@ -51,12 +55,14 @@ class CommandCycle {
 
   const CommandPort& port() const { return *port_; }
   const sweep_guard_core::InputRecord& record() const { return record_; }
-  sweep_guard_core::Duration period() const;  ///< the longest for which a command stays without a newer one
+  sweep_guard_core::Duration period() const;  ///< the longest for which a command stays without being limited anew
+  std::string rarity() const;                 ///< CommandGaps::rarity()
 
  private:
   using Trigger = std_srvs::Trigger;
+  enum class Sending { kNew, kRepeated, kIfChanged };
 
-  void onCommand(const CommandPort::Received& received);
+  void onCommand(const CommandPort::Message& message, const sweep_guard_core::Timestamps& timestamps);
   void refuse(const std::string& reason);
   ros::ServiceServer advertiseRebase(ros::NodeHandle node);
   bool onRebase(Trigger::Request& request, Trigger::Response& response);
@@ -64,8 +70,10 @@ class CommandCycle {
   bool letsThrough(const sweep_guard_core::Instant& at) const REQUIRES(mutex_);
   sweep_guard_core::Duration longestInForce() const REQUIRES(mutex_);
   CommandPort::Cycle cycleAt(const sweep_guard_core::Instant& at) const REQUIRES(mutex_);
-  sweep_guard_core::MotionInputs takeInputs(GuardInput::Newest& newest) const;
-  void limitNewest(const sweep_guard_core::Instant& at, bool only_if_changed) REQUIRES(mutex_);
+  sweep_guard_core::MotionInputs inputs(sweep_guard::Proximity::ConstPtr* planes = nullptr) const;
+  void limitNewest(const sweep_guard_core::Instant& at, Sending sending) REQUIRES(mutex_);
+  void explain(sweep_guard_core::PermissionCause cause, const sweep_guard_core::Instant& at,
+               sweep_guard::MotionStatus& status) const REQUIRES(mutex_);
   bool waitsForRelease(const sweep_guard_core::MotionInputs& known, const sweep_guard_core::Instant& at) const
       REQUIRES(mutex_);
   void sendZero(const sweep_guard_core::Instant& at) REQUIRES(mutex_);
@@ -73,19 +81,20 @@ class CommandCycle {
 
   const MotionParameters& parameters_;
   const CommandCycleSources sources_;
-  const CommandFrames frames_;
   const std::string topic_;  // resolved, of the commands
   sweep_guard_core::InputRecord record_;
   LogThrottle log_;
   mutable sweep_guard_core::Mutex mutex_;  // of what follows
   sweep_guard_core::MotionGuard guard_ GUARDED_BY(mutex_);
   sweep_guard_core::CommandPeriod period_ GUARDED_BY(mutex_);
+  sweep_guard_core::CommandGaps gaps_ GUARDED_BY(mutex_);
   std::optional<sweep_guard_core::Timestamps> command_ GUARDED_BY(mutex_);  // newest one; empty: nothing is to be sent
   sweep_guard_core::Permission permission_ GUARDED_BY(mutex_) =
       sweep_guard_core::Permission::kStop;  // of what was sent last
   std::optional<sweep_guard_core::Twist> sent_W_
-      GUARDED_BY(mutex_);  // for the newest command; empty: zero, for it is refused
-  sweep_guard_core::SteadyTime sent_ GUARDED_BY(mutex_);
+      GUARDED_BY(mutex_);                                 // for the newest command; empty: zero, for it is refused
+  sweep_guard_core::SteadyTime sent_ GUARDED_BY(mutex_);  // or limited anew with the same outcome
+  sweep_guard_core::SteadyTime published_ GUARDED_BY(mutex_);
   int halts_ GUARDED_BY(mutex_) = 0;  // zeros since the commands have stopped
 
   QueueThread thread_;  // before the port and the service, which use its queue

@@ -15,11 +15,12 @@ Eigen::Isometry3d newestPose(const Frames& frames, const std::string& target, co
   return frames.lookup(target, source, sweep_guard_core::Time());
 }
 
-Eigen::Isometry3d CommandFrames::poseOf(const std::string& frame, const std::optional<ToolPose>& tool) const {
-  const std::string& named = frame.empty() ? command_frame_ : frame;
+Eigen::Isometry3d commandFramePose(const Frames& frames, const MotionParameters& parameters, const std::string& frame,
+                                   const std::optional<sweep_guard_core::MotionInputs::ToolPose>& tool) {
+  const std::string& named = frame.empty() ? parameters.command_frame : frame;
   if (named.empty())
     throw FrameError("its header names no frame: set command_frame to the one that the robot takes it in");
-  if (named != tool_frame_) return newestPose(frames_, fixed_frame_, named);
+  if (named != parameters.tool.frame) return newestPose(frames, parameters.tool.fixed_frame, named);
   if (!tool) throw FrameError("the command is in the frame of the tool, and there is no tool pose yet");
   return tool->X_WT;
 }

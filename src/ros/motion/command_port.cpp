@@ -14,6 +14,7 @@
 namespace sweep_guard_ros {
 namespace {
 
+using geometry_msgs::PoseStamped;
 using sweep_guard_core::Duration;
 using sweep_guard_core::GuardedMotion;
 using sweep_guard_core::MotionCommand;
@@ -42,6 +43,13 @@ void stampNow(Msg& msg) {
   msg.header.stamp = ros::Time::now();
 }
 
+template <typename Msg>
+boost::shared_ptr<Msg> stampedNow(const Msg& msg) {
+  const auto stamped = boost::make_shared<Msg>(msg);
+  stampNow(*stamped);
+  return stamped;
+}
+
 Eigen::Vector3d fromXyz(const geometry_msgs::Vector3& v) { return {v.x, v.y, v.z}; }
 
 template <typename Msg>
@@ -51,78 +59,58 @@ sweep_guard_core::Timestamps timestampsOf(const Msg& msg) {
   return {stamp == Time() ? at.stamp : stamp, at.steady};
 }
 
-/// The topics of a port, and its newest command.
 template <typename Msg>
-class TypedPort : public CommandPort {
- public:
-  TypedPort(ros::NodeHandle node, const CommandFrames& frames, Callbacks callbacks)
-      : frames_(frames), publisher_(node.advertise<Msg>("guarded_command", 1)) {
-    subscriber_ = subscribeBounded<Msg>(
-        node, {kTopic, kCommandsQueued, kMaxCommandMessage},
-        [received = std::move(callbacks.received)](const ros::MessageEvent<const Msg>& event) {
-          const auto& msg = event.getConstMessage();
-          received({msg, timestampsOf(*msg)});
-        },
-        std::move(callbacks.refused));
-  }
-
-  void take(const Received& received) override { newest_ = boost::static_pointer_cast<const Msg>(received.message); }
-
-  void stop() override { subscriber_.shutdown(); }
-
-  std::string commandTopic() const override { return subscriber_.getTopic(); }
-  std::uint32_t commandPublishers() const override { return subscriber_.getNumPublishers(); }
-  std::string guardedTopic() const override { return publisher_.getTopic(); }
-  std::uint32_t guardedSubscribers() const override { return publisher_.getNumSubscribers(); }
-
- protected:
-  const CommandFrames& frames() const { return frames_; }
-  const Msg& newest() const { return *newest_; }
-  // Shared, so that no nodelet reads a copy.
-  void publishNewest() { publisher_.publish(newest_); }
-  void publish(const boost::shared_ptr<const Msg>& msg) { publisher_.publish(msg); }
-
- private:
-  const CommandFrames& frames_;
-  boost::shared_ptr<const Msg> newest_;
-  ros::Publisher publisher_;
-  BoundedSubscriber subscriber_;
-};
+ros::Publisher advertise(ros::NodeHandle node) {
+  return node.advertise<Msg>("guarded_command", 1);
+}
 
 template <typename Msg>
-class TwistPort : public TypedPort<Msg> {
+BoundedSubscriber subscribe(const ros::NodeHandle& node, CommandPort::Receive receive, CommandPort::Refuse refuse) {
+  return subscribeBounded<Msg>(
+      node, {CommandPort::kTopic, kCommandsQueued, kMaxCommandMessage},
+      [receive = std::move(receive)](const ros::MessageEvent<const Msg>& event) {
+        const auto& msg = event.getConstMessage();
+        receive(msg, timestampsOf(*msg));
+      },
+      std::move(refuse));
+}
+
+template <typename Msg>
+class TwistPort : public CommandPort {
  public:
-  TwistPort(const ros::NodeHandle& node, const MotionParameters& parameters, const CommandFrames& frames,
-            CommandPort::Callbacks callbacks)
-      : TypedPort<Msg>(node, frames, std::move(callbacks)),
+  TwistPort(const ros::NodeHandle& node, const MotionParameters& parameters, const Frames& frames, Receive receive,
+            Refuse refuse)
+      : CommandPort(frames, parameters, advertise<Msg>(node),
+                    subscribe<Msg>(node, std::move(receive), std::move(refuse))),
         linear_scale_(parameters.linear_scale),
         angular_scale_(parameters.angular_scale) {}
 
-  MotionCommand read(const MotionInputs& known, const CommandPort::Cycle& /*cycle*/) override {
-    const geometry_msgs::Twist& msg = twistOf(this->newest());
-    R_WC_ = this->frames().poseOf(headerOf(this->newest()).frame_id, known.pose).linear();
+  MotionCommand read(const MotionInputs& known, const Cycle& /*cycle*/) override {
+    const geometry_msgs::Twist& msg = twistOf(newest<Msg>());
+    R_WC_ = poseOf(headerOf(newest<Msg>()).frame_id, known.pose).linear();
     MotionCommand command;
-    command.point_T = this->frames().point().translation();
+    command.point_T = point().translation();
     command.twist_W = {R_WC_ * (linear_scale_ * fromXyz(msg.linear)), R_WC_ * (angular_scale_ * fromXyz(msg.angular))};
     commanded_W_ = command.twist_W;
     return command;
   }
 
-  void send(const GuardedMotion& motion) override {
+  void send(const GuardedMotion& motion, bool again) override {
     const Twist& let_through_W = motion.twist_W;
-    if (let_through_W == commanded_W_) return this->publishNewest();
-    const auto msg = boost::make_shared<Msg>(this->newest());
+    if (let_through_W == commanded_W_) return again ? publish(stampedNow(newest<Msg>())) : publishNewest<Msg>();
+    const auto msg = boost::make_shared<Msg>(newest<Msg>());
     geometry_msgs::Twist& twist = twistOf(*msg);
     twist.linear = vectorMsg<geometry_msgs::Vector3>(R_WC_.transpose() * let_through_W.v_W / linear_scale_);
     twist.angular = vectorMsg<geometry_msgs::Vector3>(R_WC_.transpose() * let_through_W.w_W / angular_scale_);
-    this->publish(msg);
+    if (again) stampNow(*msg);
+    publish(msg);
   }
 
-  void sendZero(const MotionInputs& /*known*/, const CommandPort::Cycle& /*cycle*/) override {
-    const auto msg = boost::make_shared<Msg>(this->newest());
+  void sendZero(const MotionInputs& /*known*/, const Cycle& /*cycle*/) override {
+    const auto msg = boost::make_shared<Msg>(newest<Msg>());
     twistOf(*msg) = {};
     stampNow(*msg);
-    this->publish(msg);
+    publish(msg);
   }
 
  private:
@@ -132,22 +120,25 @@ class TwistPort : public TypedPort<Msg> {
   Twist commanded_W_;
 };
 
-class PosePort : public TypedPort<geometry_msgs::PoseStamped> {
+class PosePort : public CommandPort {
  public:
-  PosePort(const ros::NodeHandle& node, const MotionParameters& parameters, const CommandFrames& frames,
-           Callbacks callbacks)
-      : TypedPort(node, frames, std::move(callbacks)),
-        silence_(parameters.options.permission.silence),
-        follower_(parameters.follower) {}
+  PosePort(const ros::NodeHandle& node, const MotionParameters& parameters, const Frames& frames, Receive receive,
+           Refuse refuse)
+      : CommandPort(frames, parameters, advertise<PoseStamped>(node),
+                    subscribe<PoseStamped>(node, std::move(receive), std::move(refuse))),
+        repeats_(!parameters.incremental),
+        silence_(parameters.options.silence),
+        follower_(parameters.leash, parameters.incremental) {}
 
   bool isPose() const override { return true; }
+  bool repeats() const override { return repeats_; }
 
   MotionCommand read(const MotionInputs& known, const Cycle& cycle) override {
     if (!known.pose) throw FrameError("no tool pose yet");
-    X_TP_ = frames().point();
-    const Eigen::Isometry3d command_CP = fromMsg(newest().pose);
-    X_WC_ = frames().poseOf(newest().header.frame_id, known.pose);
-    frame_ = newest().header.frame_id;
+    X_TP_ = point();
+    const Eigen::Isometry3d command_CP = fromMsg(newest<PoseStamped>().pose);
+    X_WC_ = poseOf(newest<PoseStamped>().header.frame_id, known.pose);
+    frame_ = newest<PoseStamped>().header.frame_id;
     if (!follower_.begun()) follower_.begin(known.pose->X_WT * X_TP_);
     follow(known, cycle);
     MotionCommand command;
@@ -157,14 +148,14 @@ class PosePort : public TypedPort<geometry_msgs::PoseStamped> {
     return command;
   }
 
-  void send(const GuardedMotion& motion) override {
+  void send(const GuardedMotion& motion, bool again) override {
     if (motion.decision.permission == sweep_guard_core::Permission::kStop) {
       follower_.hold(tool_is_fresh_);
     } else {
       follower_.moveOn(motion.twist_W);
     }
-    if (follower_.reached()) return publishNewest();
-    publishSent(newest().header.stamp);
+    if (follower_.reached()) return again ? publish(stampedNow(newest<PoseStamped>())) : publishNewest<PoseStamped>();
+    publishSent(again ? ros::Time::now() : newest<PoseStamped>().header.stamp);
   }
 
   void sendZero(const MotionInputs& known, const Cycle& cycle) override {
@@ -203,19 +194,20 @@ class PosePort : public TypedPort<geometry_msgs::PoseStamped> {
   // The frame may move while the tool stands still.
   void followFrame() {
     try {
-      X_WC_ = frames().poseOf(frame_, {});
+      X_WC_ = poseOf(frame_, {});
     } catch (const FrameError&) {  // the newest one known, as for the frame of the tool
     }
   }
 
   void publishSent(const ros::Time& stamp) {
-    const auto msg = boost::make_shared<geometry_msgs::PoseStamped>();
+    const auto msg = boost::make_shared<PoseStamped>();
     msg->header.frame_id = frame_;
     msg->header.stamp = stamp;
     msg->pose = toMsg(X_WC_.inverse() * follower_.sent());
     publish(msg);
   }
 
+  const bool repeats_;
   const Duration silence_;  // of the tool: an older pose does not show where it is
   sweep_guard_core::PoseFollower follower_;
   bool tool_is_fresh_ = false;
@@ -227,16 +219,19 @@ class PosePort : public TypedPort<geometry_msgs::PoseStamped> {
 }  // namespace
 
 std::unique_ptr<CommandPort> makeCommandPort(const ros::NodeHandle& node, const MotionParameters& parameters,
-                                             const CommandFrames& frames, CommandPort::Callbacks callbacks) {
+                                             const Frames& frames, CommandPort::Receive receive,
+                                             CommandPort::Refuse refuse) {
   switch (parameters.command_type) {
     case CommandType::kTwist:
-      return std::make_unique<TwistPort<geometry_msgs::Twist>>(node, parameters, frames, std::move(callbacks));
+      return std::make_unique<TwistPort<geometry_msgs::Twist>>(node, parameters, frames, std::move(receive),
+                                                               std::move(refuse));
     case CommandType::kPoseStamped:
-      return std::make_unique<PosePort>(node, parameters, frames, std::move(callbacks));
+      return std::make_unique<PosePort>(node, parameters, frames, std::move(receive), std::move(refuse));
     case CommandType::kTwistStamped:
       break;
   }
-  return std::make_unique<TwistPort<geometry_msgs::TwistStamped>>(node, parameters, frames, std::move(callbacks));
+  return std::make_unique<TwistPort<geometry_msgs::TwistStamped>>(node, parameters, frames, std::move(receive),
+                                                                  std::move(refuse));
 }
 
 }  // namespace sweep_guard_ros

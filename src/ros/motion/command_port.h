@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "ros/connection/bounded.h"
 #include "ros/motion/command_frames.h"
@@ -22,50 +23,82 @@ class CommandPort {
   static constexpr char kTopic[] = "command";
 
   using ToolPose = sweep_guard_core::MotionInputs::ToolPose;
-  struct Received {
-    boost::shared_ptr<const void> message;
-    sweep_guard_core::Timestamps timestamps;  ///< a command without a stamp has that of its receipt
-  };
-  struct Callbacks {
-    std::function<void(const Received&)> received;
-    std::function<void(const std::string&)> refused;  ///< a message that cannot be read
-  };
+  using Message = boost::shared_ptr<const void>;
+  /// Takes a message that was received. A command without a stamp has that of its receipt.
+  using Receive = std::function<void(const Message&, const sweep_guard_core::Timestamps&)>;
+  using Refuse = std::function<void(const std::string&)>;  ///< takes why a message cannot be read
 
   virtual ~CommandPort() = default;
+  CommandPort(const CommandPort&) = delete;
+  CommandPort& operator=(const CommandPort&) = delete;
 
-  virtual void take(const Received& received) = 0;  ///< it is the newest command from now on
+  void take(const Message& message) { newest_ = message; }  ///< it is the newest command from now on
   virtual bool isPose() const { return false; }
+  /// Returns whether a command may be sent again before the next one. Not if it is a change from the one before.
+  virtual bool repeats() const { return true; }
 
   /// The times of a cycle in which something is sent.
   struct Cycle {
     sweep_guard_core::Instant now;
     sweep_guard_core::Duration since_sent;  ///< a pose moves on by what is possible in this time
-    sweep_guard_core::Duration period;      ///< longest period of the commands
+    sweep_guard_core::Duration period;      ///< longest until something is sent again
   };
 
   /// Reads the newest command. All but its timestamps and `period` is filled in.
   /// @throws FrameError, sweep_guard_core::InvalidInput if it cannot be carried out
   virtual sweep_guard_core::MotionCommand read(const sweep_guard_core::MotionInputs& known, const Cycle& cycle) = 0;
   /// Publishes what was let through of what read() returned; the message itself if that is everything.
-  virtual void send(const sweep_guard_core::GuardedMotion& motion) = 0;
+  /// @param again  since the command came, it was sent before: it is stamped now
+  virtual void send(const sweep_guard_core::GuardedMotion& motion, bool again) = 0;
   /// Publishes that the tool shall stand still. A pose is published only if one was before.
   virtual void sendZero(const sweep_guard_core::MotionInputs& known, const Cycle& cycle) = 0;
-  virtual void stop() = 0;  ///< no callback begins any more, and none is running
-  virtual void pause() {}   ///< nothing is sent for a while
-  virtual void rebase() {}  ///< see PoseFollower::rebase()
+  void stop() { subscriber_.shutdown(); }  ///< no callback begins any more, and none is running
+  virtual void pause() {}                  ///< nothing is sent for a while
+  virtual void rebase() {}                 ///< see PoseFollower::rebase()
 
   /// Returns how far the pose sent last is ahead of a tool that does not follow it; empty: it follows, or no poses are sent.
   virtual std::optional<sweep_guard_core::Moved> standingLead() const { return {}; }
 
-  virtual std::string commandTopic() const = 0;
-  virtual std::uint32_t commandPublishers() const = 0;
-  virtual std::string guardedTopic() const = 0;
-  virtual std::uint32_t guardedSubscribers() const = 0;
+  std::string commandTopic() const { return subscriber_.getTopic(); }
+  std::uint32_t commandPublishers() const { return subscriber_.getNumPublishers(); }
+  std::string guardedTopic() const { return publisher_.getTopic(); }
+  std::uint32_t guardedSubscribers() const { return publisher_.getNumSubscribers(); }
+
+ protected:
+  CommandPort(const Frames& frames, const MotionParameters& parameters, const ros::Publisher& publisher,
+              BoundedSubscriber subscriber)
+      : frames_(frames), parameters_(parameters), publisher_(publisher), subscriber_(std::move(subscriber)) {}
+
+  Eigen::Isometry3d poseOf(const std::string& frame, const std::optional<ToolPose>& tool) const {
+    return commandFramePose(frames_, parameters_, frame, tool);
+  }
+  Eigen::Isometry3d point() const { return newestPose(frames_, parameters_.tool.frame, parameters_.command_point); }
+  template <typename Msg>
+  const Msg& newest() const {
+    return *static_cast<const Msg*>(newest_.get());
+  }
+  // Shared, so that no nodelet reads a copy.
+  template <typename Msg>
+  void publishNewest() {
+    publisher_.publish(boost::static_pointer_cast<const Msg>(newest_));
+  }
+  template <typename Msg>
+  void publish(const boost::shared_ptr<Msg>& msg) {
+    publisher_.publish(msg);
+  }
+
+ private:
+  const Frames& frames_;
+  const MotionParameters& parameters_;
+  Message newest_;
+  ros::Publisher publisher_;
+  BoundedSubscriber subscriber_;
 };
 
 /// Returns the port of command_type.
 /// @param node  its queue calls back
 std::unique_ptr<CommandPort> makeCommandPort(const ros::NodeHandle& node, const MotionParameters& parameters,
-                                             const CommandFrames& frames, CommandPort::Callbacks callbacks);
+                                             const Frames& frames, CommandPort::Receive receive,
+                                             CommandPort::Refuse refuse);
 
 }  // namespace sweep_guard_ros

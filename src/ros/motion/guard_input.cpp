@@ -4,6 +4,7 @@
 
 #include "ros/connection/sole_publisher.h"
 #include "ros/input/future_stamp.h"
+#include "ros/motion/absent_guard.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/ros/conversions.h"
@@ -13,7 +14,6 @@ namespace {
 
 using sweep_guard_core::InputRecord;
 using sweep_guard_core::InvalidInput;
-using sweep_guard_core::PermissionInputs;
 using sweep_guard_core::PlaneSet;
 
 constexpr std::uint32_t kGuardQueued = 1;  // only the newest counts
@@ -55,11 +55,11 @@ std::shared_ptr<const sweep_guard_core::ToolBalls> toolFrom(const sweep_guard::T
 
 }  // namespace
 
-GuardInput::GuardInput(const ros::NodeHandle& node, const GuardSource& source)
-    : fixed_frame_(source.fixed_frame), tool_frame_(source.tool_frame), silence_(source.silence) {
-  planes_ = subscribe(node, source.guard + "/proximity", planes_record_, &GuardInput::acceptPlanes);
-  tool_ = subscribe(node, source.guard + "/tool_balls", tool_record_, &GuardInput::acceptTool);
-  warning_ = subscribe(node, source.guard + "/warning", warning_record_, &GuardInput::acceptWarning);
+GuardInput::GuardInput(const ros::NodeHandle& node, const std::string& guard, const PoseSource& tool)
+    : guard_(guard), fixed_frame_(tool.fixed_frame), tool_frame_(tool.frame), silence_(tool.silence) {
+  planes_ = subscribe(node, guard + "/proximity", planes_record_, &GuardInput::acceptPlanes);
+  tool_ = subscribe(node, guard + "/tool_balls", tool_record_, &GuardInput::acceptTool);
+  warning_ = subscribe(node, guard + "/warning", warning_record_, &GuardInput::acceptWarning);
 }
 
 template <typename Msg>
@@ -81,21 +81,23 @@ BoundedSubscriber GuardInput::subscribe(const ros::NodeHandle& node, const std::
       [this, topic, &record](const std::string& reason) { refuse(topic, reason, record); });
 }
 
-GuardInput::Newest GuardInput::newest() const {
+sweep_guard_core::MotionInputs GuardInput::inputs(sweep_guard::Proximity::ConstPtr* message) const {
   const sweep_guard_core::Lock lock(mutex_);
+  if (message != nullptr) *message = newest_planes_;
   return newest_;
 }
 
-sweep_guard_core::MotionInputs GuardInput::inputs() const {
-  const sweep_guard_core::Lock lock(mutex_);
-  return newest_.inputs;
+void GuardInput::report(DiagnosticsLine& line) const {
+  using diagnostic_msgs::DiagnosticStatus;
+  const std::string absent = absence();
+  const bool is_there = absent.empty();
+  line.summary(is_there ? DiagnosticStatus::OK : DiagnosticStatus::ERROR, is_there ? "received" : absent);
+  reportTopic(planes_, planes_record_.summary(), is_there, line);
+  reportTopic(tool_, tool_record_.summary(), is_there, line);
+  reportTopic(warning_, warning_record_.summary(), is_there, line);
 }
 
-std::array<GuardInput::Source, 3> GuardInput::sources() const {
-  return {{{planes_.getTopic(), planes_.getNumPublishers(), planes_record_.summary()},
-           {tool_.getTopic(), tool_.getNumPublishers(), tool_record_.summary()},
-           {warning_.getTopic(), warning_.getNumPublishers(), warning_record_.summary()}}};
-}
+std::string GuardInput::absence() const { return warning_.getNumPublishers() > 0 ? "" : absentGuardText(guard_); }
 
 void GuardInput::acceptPlanes(const ros::MessageEvent<const sweep_guard::Proximity>& event) {
   sweep_guard::Proximity::ConstPtr msg = event.getConstMessage();
@@ -104,15 +106,15 @@ void GuardInput::acceptPlanes(const ros::MessageEvent<const sweep_guard::Proximi
   readPlanes(*msg, std::chrono::steady_clock::now(), *planes);
   checkStamp(planes->timestamps);
   const sweep_guard_core::Lock lock(mutex_);
-  newest_.inputs.planes = planes;
-  newest_.planes.swap(msg);
+  newest_.planes = planes;
+  newest_planes_.swap(msg);
 }
 
 void GuardInput::acceptTool(const ros::MessageEvent<const sweep_guard::ToolBalls>& event) {
   checkFrame(event.getConstMessage()->header.frame_id, tool_frame_);
   auto tool = toolFrom(*event.getConstMessage());
   const sweep_guard_core::Lock lock(mutex_);
-  newest_.inputs.tool.swap(tool);
+  newest_.tool.swap(tool);
 }
 
 void GuardInput::acceptWarning(const ros::MessageEvent<const sweep_guard::Warning>& event) {
@@ -121,15 +123,15 @@ void GuardInput::acceptWarning(const ros::MessageEvent<const sweep_guard::Warnin
   const auto level =
       known ? static_cast<sweep_guard_core::WarningLevel>(msg.level) : sweep_guard_core::WarningLevel::kUnknown;
   const sweep_guard_core::Lock lock(mutex_);
-  newest_.inputs.warning = PermissionInputs::GuardWarning{level, msg.reasons, std::chrono::steady_clock::now()};
+  newest_.warning = sweep_guard_core::MotionInputs::GuardWarning{level, msg.reasons, std::chrono::steady_clock::now()};
 }
 
 // When time went back, those before are silent soon.
 void GuardInput::checkStamp(const sweep_guard_core::Timestamps& timestamps) const {
   if (liesInFuture(timestamps.stamp)) throw InvalidInput(kFutureStampText);
   const sweep_guard_core::Lock lock(mutex_);
-  if (!newest_.inputs.planes) return;
-  const sweep_guard_core::Timestamps& before = newest_.inputs.planes->timestamps;
+  if (!newest_.planes) return;
+  const sweep_guard_core::Timestamps& before = newest_.planes->timestamps;
   if (timestamps.stamp < before.stamp && timestamps.received - before.received <= silence_) {
     throw InvalidInput("stamp is older than that of the message before");
   }

@@ -4,16 +4,16 @@
 #include <sweep_guard/ToolBalls.h>
 #include <sweep_guard/Warning.h>
 
-#include <array>
 #include <string>
 
+#include "common/guarded_by.h"
 #include "common/pool.h"
 #include "monitor/input_record.h"
 #include "ros/connection/bounded.h"
-#include "ros/motion/guard_source.h"
+#include "ros/motion/input_diagnostics.h"
+#include "ros/motion/pose_source.h"
 #include "ros/process/log_throttle.h"
 #include "ros/threads/queue_thread.h"
-#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/motion/motion_guard.h"
 
 namespace sweep_guard_ros {
@@ -22,26 +22,20 @@ namespace sweep_guard_ros {
 /// each. One that is refused changes nothing: the guard then seems silent. So it does if several nodes publish.
 class GuardInput {
  public:
-  GuardInput(const ros::NodeHandle& node, const GuardSource& source);
+  /// @param guard  name of its node
+  /// @param tool   frames, and the silence after which another node may publish or stamps may go back
+  GuardInput(const ros::NodeHandle& node, const std::string& guard, const PoseSource& tool);
 
   void start(Supervisor& supervisor) {
     thread_.start(supervisor, {"guard", sweep_guard_core::Stage::kReceive, /*watched=*/true, /*loses_latched=*/true});
   }
 
-  /// The newest inputs, without a tool pose, and the message that the planes are from.
-  struct Newest {
-    sweep_guard_core::MotionInputs inputs;
-    sweep_guard::Proximity::ConstPtr planes;  ///< null as long as there are no planes
-  };
-  Newest newest() const;                          ///< any thread
-  sweep_guard_core::MotionInputs inputs() const;  ///< what has come, without the message. Any thread
+  /// Returns the newest inputs, without a tool pose. Any thread.
+  /// @param[out] message  that the planes are from; null as long as there are no planes
+  sweep_guard_core::MotionInputs inputs(sweep_guard::Proximity::ConstPtr* message = nullptr) const;
 
-  struct Source {
-    std::string topic;
-    std::uint32_t publishers;
-    sweep_guard_core::InputRecord::Summary record;
-  };
-  std::array<Source, 3> sources() const;
+  void report(DiagnosticsLine& line) const;  ///< fills the line of the messages
+  std::string absence() const;  ///< that nobody publishes the warning, and what to do; empty: somebody does
 
  private:
   template <typename Msg>
@@ -55,11 +49,13 @@ class GuardInput {
   void checkStamp(const sweep_guard_core::Timestamps& timestamps) const;
   void checkFrame(const std::string& frame, const std::string& expected) const;
 
+  const std::string guard_;
   const std::string fixed_frame_;
   const std::string tool_frame_;
   const sweep_guard_core::Duration silence_;
   mutable sweep_guard_core::Mutex mutex_;
-  Newest newest_ GUARDED_BY(mutex_);
+  sweep_guard_core::MotionInputs newest_ GUARDED_BY(mutex_);
+  sweep_guard::Proximity::ConstPtr newest_planes_ GUARDED_BY(mutex_);
   sweep_guard_core::Pool<sweep_guard_core::PlaneSet> plane_sets_;  // used by the thread that receives
   sweep_guard_core::InputRecord planes_record_;
   sweep_guard_core::InputRecord tool_record_;

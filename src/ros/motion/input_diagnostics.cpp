@@ -29,15 +29,15 @@ bool silent(const InputRecord::Summary& record) {
   return !record.newest || now().steady - record.newest->received > kSilent;
 }
 
-void reportGuard(const GuardInput& guard, DiagnosticsLine& line) {
-  line.summary(DiagnosticStatus::OK, "received");
-  for (const auto& [topic, publishers, record] : guard.sources()) {
-    if (!record.newest) line.mergeSummary(DiagnosticStatus::ERROR, "nothing received on " + topic);
-    if (refusedLately(record)) line.mergeSummary(DiagnosticStatus::ERROR, topic + " refused: " + record.last_error);
-    if (publishers > 1) line.mergeSummary(DiagnosticStatus::ERROR, "several publishers on " + topic);
-    line.add(topic, std::to_string(publishers) + " publishers");
-    addRecord(topic, record, line);
-  }
+void reportTopic(const BoundedSubscriber& subscriber, const InputRecord::Summary& record, bool expected,
+                 DiagnosticsLine& line) {
+  const std::string topic = subscriber.getTopic();
+  const std::uint32_t publishers = subscriber.getNumPublishers();
+  if (expected && !record.newest) line.mergeSummary(DiagnosticStatus::ERROR, "nothing received on " + topic);
+  if (refusedLately(record)) line.mergeSummary(DiagnosticStatus::ERROR, topic + " refused: " + record.last_error);
+  if (publishers > 1) line.mergeSummary(DiagnosticStatus::ERROR, "several publishers on " + topic);
+  line.add(topic, std::to_string(publishers) + " publishers");
+  addRecord(topic, record, line);
 }
 
 void reportPose(const ToolPoseInput& pose, const std::string& name, DiagnosticsLine& line) {
@@ -52,16 +52,15 @@ void reportPose(const ToolPoseInput& pose, const std::string& name, DiagnosticsL
   addRecord(name, record, line);
 }
 
-void reportOutput(const OutputWatch& watch, const Output& output, DiagnosticsLine& line) {
-  line.summary(DiagnosticStatus::OK, "only " + output.node + " publishes on " + output.topic);
-  if (output.subscribers == 0) {
-    line.summary(DiagnosticStatus::WARN, "no subscriber to " + output.topic + ": " + output.without);
-  }
+void reportOutput(const OutputWatch& watch, std::uint32_t subscribers, const std::string& node,
+                  const std::string& without, DiagnosticsLine& line) {
+  line.summary(DiagnosticStatus::OK, "only " + node + " publishes on " + watch.topic());
+  if (subscribers == 0) line.summary(DiagnosticStatus::WARN, "no subscriber to " + watch.topic() + ": " + without);
   for (const std::string& other : watch.otherPublishers()) {
-    line.mergeSummary(DiagnosticStatus::ERROR, other + " publishes on " + output.topic + ", past the guard");
+    line.mergeSummary(DiagnosticStatus::ERROR, other + " publishes on " + watch.topic() + ", past the guard");
   }
-  line.add("topic", output.topic);
-  line.add("subscribers", output.subscribers);
+  line.add("topic", watch.topic());
+  line.add("subscribers", subscribers);
 }
 
 }  // namespace sweep_guard_ros

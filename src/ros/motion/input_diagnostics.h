@@ -6,7 +6,7 @@
 #include <string>
 
 #include "monitor/input_record.h"
-#include "ros/motion/guard_input.h"
+#include "ros/connection/bounded.h"
 #include "ros/motion/output_watch.h"
 #include "ros/motion/tool_pose_input.h"
 
@@ -19,22 +19,19 @@ void addRecord(const std::string& name, const sweep_guard_core::InputRecord::Sum
 /// Returns whether nothing has come for a second.
 bool silent(const sweep_guard_core::InputRecord::Summary& record);
 
-/// Fills the line of the messages of a guard.
-void reportGuard(const GuardInput& guard, DiagnosticsLine& line);
+/// Adds a topic of a guard to a line.
+/// @param expected  whether it is an error that nothing has been received
+void reportTopic(const BoundedSubscriber& subscriber, const sweep_guard_core::InputRecord::Summary& record,
+                 bool expected, DiagnosticsLine& line);
 
 /// Fills the line of the poses of a tool.
 /// @param name  of the poses, for people
 void reportPose(const ToolPoseInput& pose, const std::string& name, DiagnosticsLine& line);
 
-/// A topic that only one node may publish.
-struct Output {
-  std::string topic;
-  std::uint32_t subscribers;
-  std::string node;     ///< that publishes it
-  std::string without;  ///< what it means that nobody subscribes
-};
-
-/// Fills the line of an output: who subscribes, and who else publishes.
-void reportOutput(const OutputWatch& watch, const Output& output, DiagnosticsLine& line);
+/// Fills the line of an output that only one node may publish: who subscribes, and who else publishes.
+/// @param node     that publishes it
+/// @param without  what it means that nobody subscribes
+void reportOutput(const OutputWatch& watch, std::uint32_t subscribers, const std::string& node,
+                  const std::string& without, DiagnosticsLine& line);
 
 }  // namespace sweep_guard_ros

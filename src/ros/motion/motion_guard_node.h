@@ -1,11 +1,13 @@
 #pragma once
 
+#include <diagnostic_updater/diagnostic_updater.h>
+
 #include "ros/connection/master_watch.h"
 #include "ros/input/frames.h"
 #include "ros/motion/command_cycle.h"
 #include "ros/motion/guard_input.h"
 #include "ros/motion/hold_publisher.h"
-#include "ros/motion/motion_diagnostics.h"
+#include "ros/motion/input_diagnostics.h"
 #include "ros/motion/motion_parameters.h"
 #include "ros/motion/output_watch.h"
 #include "ros/motion/status_publisher.h"
@@ -28,6 +30,12 @@ class MotionGuardNode {
   void start();  ///< begins to pass commands on; once
 
  private:
+  // Lines of /diagnostics: what is let through and how often each cause began; the commands and their period; where they go
+  // and who else publishes there.
+  void motion(DiagnosticsLine& line) const;
+  void command(DiagnosticsLine& line) const;
+  void output(DiagnosticsLine& line) const;
+
   // Members use only earlier members.
   const MotionParameters parameters_;
   MasterWatch master_watch_;  // before what registers at the master
@@ -39,7 +47,7 @@ class MotionGuardNode {
   HoldPublisher hold_;
   CommandCycle cycle_;
   OutputWatch output_watch_;
-  MotionDiagnostics diagnostics_;
+  diagnostic_updater::Updater updater_;
   TimerThread ticks_;
   TimerThread reports_;
 };

@@ -21,15 +21,11 @@ void readCommand(ParameterReader& read, MotionParameters& parameters) {
                   "pose_stamped only. absolute: the tool shall go to the pose, and catches up with what was held back. "
                   "incremental: the tool shall move as the poses do; what was held back is lost, and ~rebase is the "
                   "clutch.");
-  parameters.follower.mode =
-      mode == "absolute" ? sweep_guard_core::PoseMode::kAbsolute : sweep_guard_core::PoseMode::kIncremental;
+  parameters.incremental = mode == "incremental";
 }
 
 void readFrames(ParameterReader& read, MotionParameters& parameters) {
-  const PoseSource tool = readPoseSource(read);
-  parameters.fixed_frame = tool.fixed_frame;
-  parameters.tool_source = tool.source;
-  parameters.tool_frame = tool.frame;
+  parameters.tool = readPoseSource(read);
   parameters.command_frame =
       read.optionalName("command_frame",
                         "tf frame of a command whose header names none. Empty: fixed_frame for twist, which has "
@@ -39,8 +35,8 @@ void readFrames(ParameterReader& read, MotionParameters& parameters) {
                         "tf frame that moves with the tool; a command is the velocity or the pose "
                         "of this frame. Empty: tool_frame.");
   const bool needs_frame = parameters.command_type == CommandType::kTwist && parameters.command_frame.empty();
-  if (needs_frame) parameters.command_frame = parameters.fixed_frame;
-  if (parameters.command_point.empty()) parameters.command_point = parameters.tool_frame;
+  if (needs_frame) parameters.command_frame = parameters.tool.fixed_frame;
+  if (parameters.command_point.empty()) parameters.command_point = parameters.tool.frame;
 }
 
 void readScales(ParameterReader& read, MotionParameters& parameters) {
@@ -53,20 +49,21 @@ void readScales(ParameterReader& read, MotionParameters& parameters) {
 }
 
 void readTimes(ParameterReader& read, MotionParameters& parameters) {
-  sweep_guard_core::PermissionLimits& limits = parameters.options.permission;
-  limits.command_timeout = readSeconds(
-      read, "command_timeout", limits.command_timeout, {0.005, 10.0, "s"},
+  sweep_guard_core::MotionGuardOptions& options = parameters.options;
+  options.command_timeout = readSeconds(
+      read, "command_timeout", options.command_timeout, {0.005, 10.0, "s"},
       "An older command is not carried out: zero is sent. Also the longest period of commands that is counted "
       "on.");
-  limits.silence = readSeconds(read, "silence", limits.silence, {0.02, 2.0, "s"},
-                               "Zero is sent unless a warning, planes and a tool pose have come within this time.");
+  options.silence = readSeconds(read, "silence", options.silence, {0.02, 2.0, "s"},
+                                "Zero is sent unless a warning, planes and a tool pose have come within this time.");
+  parameters.tool.silence = options.silence;
   parameters.halt_messages = read.integer(
       "halt_messages", 4, 0, 1000,
       "Number of zeros that are sent after the commands have stopped; then nothing is sent. 0: zeros without "
       "end.");
-  parameters.options.dead_time = readSeconds(read, "lag/dead_time", std::chrono::milliseconds(20), {0.0, 2.0, "s"},
-                                             "Time until the robot begins to do what was sent.");
-  parameters.options.time_constant =
+  options.dead_time = readSeconds(read, "lag/dead_time", std::chrono::milliseconds(20), {0.0, 2.0, "s"},
+                                  "Time until the robot begins to do what was sent.");
+  options.time_constant =
       readSeconds(read, "lag/time_constant", std::chrono::milliseconds(30), {0.0, 2.0, "s"},
                   "Time constant with which the robot then follows. Filters behind motion_guard count, as "
                   "low_pass_filter_coeff of MoveIt Servo.");
@@ -78,14 +75,14 @@ void readMotion(ParameterReader& read, MotionParameters& parameters) {
                                      "Deceleration of any tool point that the robot reaches when it is stopped.");
   options.standoff = read.number("standoff", options.standoff, {0.0, 1.0, "m"},
                                  "Distance from a surface at which nothing closes on it.");
-  options.permission.escape_speed = read.number(
-      "escape_speed", options.permission.escape_speed, {0.0, 10.0, "m/s"},
+  options.escape_speed = read.number(
+      "escape_speed", options.escape_speed, {0.0, 10.0, "m/s"},
       "Speed at which a command may lead away from every surface while the guard does not know or is silent, "
       "for at most 0.5 s after the newest planes. 0: not at all.");
-  parameters.follower.max_speed = read.number("max_speed", parameters.follower.max_speed, {0.001, 1000.0, "m/s"},
-                                              "pose_stamped only: the pose that is sent moves no faster.");
-  parameters.follower.max_turn_rate =
-      read.number("max_turn_rate", parameters.follower.max_turn_rate, {0.001, 1000.0, "rad/s"},
+  parameters.leash.max_speed = read.number("max_speed", parameters.leash.max_speed, {0.001, 1000.0, "m/s"},
+                                           "pose_stamped only: the pose that is sent moves no faster.");
+  parameters.leash.max_turn_rate =
+      read.number("max_turn_rate", parameters.leash.max_turn_rate, {0.001, 1000.0, "rad/s"},
                   "pose_stamped only: the pose that is sent turns no faster.");
 }
 
@@ -101,9 +98,9 @@ MotionParameters loadMotionParameters(const ros::NodeHandle& private_node) {
   readTimes(read, parameters);
   readMotion(read, parameters);
   read.number("diagnostic_period", 1.0, {0.0, sweep_guard_core::kInfinity});  // set by diagnostic_updater
-  parameters.follower.dead_time = parameters.options.dead_time;
-  parameters.follower.time_constant = parameters.options.time_constant;
-  parameters.follower.deceleration = parameters.options.deceleration;
+  parameters.leash.dead_time = parameters.options.dead_time;
+  parameters.leash.time_constant = parameters.options.time_constant;
+  parameters.leash.deceleration = parameters.options.deceleration;
   parameters.settings = read.settings();
   parameters.described = read.described();
   read.warnOfUnread();

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "ros/motion/guard_source.h"
+#include "ros/motion/pose_source.h"
 #include "ros/parameters/parameters.h"
 #include "sweep_guard/motion/motion_guard.h"
-#include "sweep_guard/motion/pose_follower.h"
+#include "sweep_guard/motion/pose_leash.h"
 
 namespace sweep_guard_ros {
 
@@ -18,24 +18,18 @@ enum class CommandType { kTwistStamped, kTwist, kPoseStamped };
 /// each; doc/interface.md and config/motion_guard.yaml are generated from them.
 struct MotionParameters {
   CommandType command_type;
-  std::string fixed_frame;
-  ToolSource tool_source;
-  std::string tool_frame;
+  PoseSource tool;
   std::string command_frame;  ///< axes of an unstamped twist
   std::string command_point;  ///< tf frame whose origin the command is of
   double linear_scale;        ///< [m/s] in a unit of a command
   double angular_scale;       ///< [rad/s] in a unit of a command
   std::string guard;          ///< name of the guard's node
-  sweep_guard_core::PoseFollower::Options follower;
+  bool incremental;           ///< see PoseFollower; of poses, as the following
+  sweep_guard_core::PoseLeash::Options leash;
   sweep_guard_core::MotionGuardOptions options;
   int halt_messages;                     ///< zeros after the commands have stopped; 0: without end
   ParameterReader::Settings settings;    ///< as read
   std::vector<ParameterInfo> described;  ///< always the same keys in the same order
-
-  GuardSource guardSource() const { return {guard, fixed_frame, tool_frame, options.permission.silence}; }
-  PoseSource poseSource() const {
-    return {"tool pose", "tool_pose", tool_source, fixed_frame, tool_frame, options.permission.silence};
-  }
 };
 
 /// Reads the private parameters. A missing parameter takes its default. Warns of each parameter that is not read.

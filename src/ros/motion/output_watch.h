@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "common/guarded_by.h"
 #include "ros/connection/xml_rpc_call.h"
 #include "ros/threads/timer_thread.h"
-#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 
@@ -23,6 +23,7 @@ class OutputWatch {
     thread_.start(supervisor, {"output watch", sweep_guard_core::Stage::kOther, /*watched=*/false});
   }
 
+  const std::string& topic() const { return topic_; }
   std::vector<std::string> otherPublishers() const;  ///< names of nodes, as of the newest answer. Any thread
 
  private:

@@ -1,9 +1,5 @@
 #include "ros/motion/source_parameters.h"
 
-#include <ros/names.h>
-
-#include "sweep_guard/common/error.h"
-
 namespace sweep_guard_ros {
 
 PoseSource readPoseSource(ParameterReader& read) {
@@ -18,11 +14,9 @@ PoseSource readPoseSource(ParameterReader& read) {
 }
 
 std::string readGuard(ParameterReader& read) {
-  std::string guard = read.name("guard", "/sweep_guard",
-                                "Name of the guard's node, whose proximity, tool_balls and warning are listened to.");
-  std::string error;
-  if (ros::names::validate(guard, error)) return guard;
-  throw sweep_guard_core::InvalidInput("parameter guard is no name of a node: " + error);
+  return read.node("guard", "sweep_guard",
+                   "Name of the guard's node, whose proximity, tool_balls and warning are listened to. Without a slash "
+                   "at its front: in the namespace of this node.");
 }
 
 sweep_guard_core::Duration readSeconds(ParameterReader& read, const std::string& key,

@@ -2,14 +2,14 @@
 
 #include <string>
 
-#include "ros/motion/guard_source.h"
+#include "ros/motion/pose_source.h"
 
 namespace sweep_guard_ros {
 
 /// Reads fixed_frame, tool_source (kTopic or kTf) and tool_frame. The caller sets `silence`.
 PoseSource readPoseSource(ParameterReader& read);
 
-/// Reads the name of the guard's node.
+/// Reads the name of the guard's node, and resolves it.
 /// @throws sweep_guard_core::InvalidInput if it is no name of a node
 std::string readGuard(ParameterReader& read);
 

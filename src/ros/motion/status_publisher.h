@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "sweep_guard/common/mutex.h"
+#include "common/guarded_by.h"
 #include "sweep_guard/common/time.h"
 
 namespace sweep_guard_ros {

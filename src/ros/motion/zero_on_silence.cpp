@@ -54,7 +54,8 @@ ZeroOnSilence::ZeroOnSilence(const ros::NodeHandle& node, const ros::NodeHandle&
 
 ZeroOnSilence::ZeroOnSilence(const ros::NodeHandle& node, const ros::NodeHandle& private_node, ParameterReader read)
     : master_watch_(private_node, [this] { return settings_; }),
-      silence_(sweep_guard_core::fromSeconds(read.number("timeout", 0.1, {0.01, 1.0, "s"}))),
+      timeout_(sweep_guard_core::fromSeconds(read.number("timeout", 0.1, {0.01, 1.0, "s"}))),
+      gaps_(timeout_, "timeout"),
       updater_(node, private_node, private_node.getNamespace()),
       supervisor_(Process::kOwn) {
   const std::string type = read.choice("command_type", "twist", {"twist", "twist_stamped", "wrench_stamped"});
@@ -106,7 +107,9 @@ void ZeroOnSilence::pass(const boost::shared_ptr<const Msg>& command) {
   if (!isFinite(*command)) return refuse("command is not finite");
   const sweep_guard_core::Lock lock(mutex_);
   if (stopping_) return;
-  silence_.received(std::chrono::steady_clock::now());
+  const sweep_guard_core::SteadyTime received = std::chrono::steady_clock::now();
+  newest_ = received;
+  gaps_.received({sweep_guard_core::Time(), received});
   output_.publish(command);
   ++passed_;
 }
@@ -121,15 +124,18 @@ void ZeroOnSilence::refuse(const std::string& reason) {
 
 void ZeroOnSilence::sendZeroIfSilent() {
   const sweep_guard_core::Lock lock(mutex_);
-  if (silence_.silent(std::chrono::steady_clock::now())) send_zero_();
+  if (sweep_guard_core::isSilent(newest_, timeout_, std::chrono::steady_clock::now())) send_zero_();
 }
 
 void ZeroOnSilence::report(Status& status) {
   const std::vector<std::string> others = output_watch_->otherPublishers();
   const sweep_guard_core::Lock lock(mutex_);
-  const bool silent = silence_.silent(std::chrono::steady_clock::now());
+  const sweep_guard_core::SteadyTime now = std::chrono::steady_clock::now();
+  const bool silent = sweep_guard_core::isSilent(newest_, timeout_, now);
+  const std::string rarity = gaps_.rarity(now);
   status.summary(silent ? DiagnosticStatus::WARN : DiagnosticStatus::OK,
                  silent ? "no command: zero is sent" : "passed on");
+  if (!rarity.empty()) status.summary(DiagnosticStatus::WARN, "zero is sent in between: " + rarity);
   if (output_.getNumSubscribers() == 0)
     status.mergeSummary(DiagnosticStatus::WARN, "no subscriber on " + output_.getTopic());
   if (input_.getNumPublishers() > 1) {

@@ -8,13 +8,14 @@
 #include <optional>
 #include <string>
 
+#include "common/guarded_by.h"
 #include "ros/connection/bounded.h"
 #include "ros/connection/master_watch.h"
 #include "ros/motion/output_watch.h"
 #include "ros/process/log_throttle.h"
 #include "ros/threads/queue_thread.h"
 #include "ros/threads/timer_thread.h"
-#include "sweep_guard/common/mutex.h"
+#include "sweep_guard/motion/command_gaps.h"
 #include "sweep_guard/motion/command_period.h"
 #include "sweep_guard/ros/parameters/parameter_reader.h"
 
@@ -50,8 +51,10 @@ class ZeroOnSilence {
   ParameterReader::Settings settings_;
   MasterWatch master_watch_;  // before what registers at the master
   LogThrottle log_;
-  sweep_guard_core::Mutex mutex_;  // of the next four: commands and zeros leave in the order of their decisions
-  sweep_guard_core::CommandSilence silence_ GUARDED_BY(mutex_);
+  const sweep_guard_core::Duration timeout_;
+  sweep_guard_core::Mutex mutex_;  // of the next five: commands and zeros leave in the order of their decisions
+  std::optional<sweep_guard_core::SteadyTime> newest_ GUARDED_BY(mutex_);  // when the newest command was received
+  sweep_guard_core::CommandGaps gaps_ GUARDED_BY(mutex_);
   std::function<void()> send_zero_;
   std::uint64_t passed_ GUARDED_BY(mutex_) = 0;
   std::string last_refusal_ GUARDED_BY(mutex_);

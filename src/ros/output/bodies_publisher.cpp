@@ -81,7 +81,7 @@ void BodiesPublisher::moved(const sweep_guard_core::PoseWithFrames& pose) {
     if (newest_ != sweep_guard_core::Time()) reset();
     return;
   }
-  for (size_t i = 0; i < motions_.size(); ++i) motions_[i].add(pose.stamp, pose.body(i));
+  for (size_t i = 0; i < motions_.size(); ++i) motions_[i].add(pose.stamp, pose.bodies[i]);
   newest_ = pose.stamp;
   if (newest_ - published_ >= kMinPeriod) publish();
 }
@@ -94,7 +94,7 @@ void BodiesPublisher::predicted(const sweep_guard_core::PoseWithFrames& from,
   predicted_from_ = toMsg(known ? from.stamp : sweep_guard_core::Time());
   for (size_t i = 0; known && i < motions_.size(); ++i) {
     const auto& path = prediction.body_paths.empty() ? prediction.path : prediction.body_paths[i];
-    predicted_.push_back(predictedMotion(from.body(i).X_WB, path));
+    predicted_.push_back(predictedMotion(from.bodies[i].X_WB, path));
   }
   publish();
 }

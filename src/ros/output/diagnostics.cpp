@@ -5,7 +5,10 @@
 #include <array>
 #include <cstdio>
 #include <fstream>
+#include <utility>
 
+#include "common/number_text.h"
+#include "monitor/workpiece_sizes.h"
 #include "sweep_guard/common/quantile.h"
 #include "sweep_guard/ros/conversions.h"
 
@@ -54,6 +57,7 @@ Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& pri
   updater_.setHardwareID("none");
   updater_.add("warning", [this](Status& status) { warning(status); });
   updater_.add("tool pose", [this](Status& status) { pose(status); });
+  updater_.add("tool", [this](Status& status) { reportTool(*state_.parameters.get(), status); });
   updater_.add("mesh", [this](Status& status) { mesh(status); });
   updater_.add("mesh vertices", [this](Status& status) { vertices(status); });
   updater_.add("workpieces", [this](Status& status) { workpieces(status); });
@@ -94,7 +98,23 @@ void Diagnostics::pose(Status& status) {
     status.mergeSummary(DiagnosticStatus::WARN, "several publishers: the tool jumps between their poses");
   }
   status.add("lost", inputs_.poses().lost());
+  const auto repeated = inputs_.poses().repeated().counts();
+  const auto percent = repeatedPercent(std::exchange(repeated_, repeated), repeated);
+  if (percent) status.addf("repeated positions [%]", "%.0f", *percent);
   if (const auto newest = inputs_.poses().record().summary().newest) reportClocks(*newest, status);
+}
+
+void reportTool(const Parameters& parameters, diagnostic_updater::DiagnosticStatusWrapper& status) {
+  size_t of_visuals = 0;
+  for (const LinkShape& shape : parameters.link_shapes) {
+    of_visuals += shape.is_visual ? 1 : 0;
+    status.addf("'" + shape.link + "'", "%zu pieces from its %s geometry", shape.pieces,
+                shape.is_visual ? "visual" : "collision");
+  }
+  for (const std::string& id : parameters.attached) status.add("'" + id + "'", "attached");
+  status.summary(DiagnosticStatus::OK,
+                 parameters.tool_description +
+                     (of_visuals == 0 ? "" : ", " + std::to_string(of_visuals) + " links of visual geometry"));
 }
 
 void Diagnostics::mesh(Status& status) {
@@ -129,6 +149,7 @@ void Diagnostics::input(Status& status, const Input& input, Counts& previous) co
     status.summary(input.continuous ? DiagnosticStatus::STALE : DiagnosticStatus::OK,
                    "nothing received on " + input.source);
   }
+  if (rate == 0.0 && !record.lacking.empty()) status.summary(silence, record.lacking);
   if (record.refused > previous.refused) status.summary(DiagnosticStatus::ERROR, "refused: " + record.last_error);
   const bool warned = !record.last_warning.empty() && record.warning_time > previous.time;
   if (warned) status.mergeSummary(DiagnosticStatus::WARN, record.last_warning);
@@ -175,6 +196,11 @@ void Diagnostics::workpieces(Status& status) const {
     status.add("inside of '" + workpiece->id + "'", open);
   }
   for (const std::string& id : parameters->attached) status.add("'" + id + "'", "attached to the tool");
+  const sweep_guard_core::WorkpieceSizes sizes = sweep_guard_core::workpieceSizes(workpieces, state_.distances.get());
+  if (!sizes.doubt.empty()) status.mergeSummary(DiagnosticStatus::WARN, sizes.doubt);
+  for (const auto& [id, size] : sizes.nearest) status.add("size of '" + id + "'", size);
+  const std::string refusal = state_.frames.refusalFor("workpieces");
+  if (!refusal.empty()) status.mergeSummary(DiagnosticStatus::ERROR, refusal);
 }
 
 void Diagnostics::allowed(Status& status) const {
@@ -192,7 +218,7 @@ void Diagnostics::otherTools(Status& status) const {
   const sweep_guard_core::Duration timeout = state_.parameters.get()->limits.pose_timeout;
   status.summary(DiagnosticStatus::OK, "heard");
   for (const auto& [name, newest, problem] : state_.monitor.otherTools()) {
-    const std::string age = newest ? "pose " + std::to_string(toSeconds(sweep_guard_core::age(*newest, at))) + " s old"
+    const std::string age = newest ? "pose " + sweep_guard_core::inSeconds(sweep_guard_core::age(*newest, at)) + " old"
                                    : std::string("not heard of");
     const bool counts = newest && problem.empty() && !sweep_guard_core::stale(*newest, at, timeout);
     if (!counts) status.mergeSummary(DiagnosticStatus::ERROR, "'" + name + "' does not count");

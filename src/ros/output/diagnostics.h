@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "monitor/repeated_positions.h"
 #include "monitor/sweep_statistics.h"
 #include "ros/guard/guard_state.h"
 #include "ros/input/inputs.h"
@@ -17,9 +18,12 @@ namespace sweep_guard_ros {
 void reportDetector(const sweep_guard_core::SweepStatistics::Summary& statistics, const Parameters& parameters,
                     diagnostic_updater::DiagnosticStatusWrapper& status);
 
-/// Publishes on /diagnostics the warning, each input (source, publishers, rate, age, last error), the workpieces, which
-/// contact is allowed, the detector and its deadlines, the prediction, the time in each stage, the changed parameters, and the memory of the
-/// process.
+/// Reports what the tool and each of its links are made of.
+void reportTool(const Parameters& parameters, diagnostic_updater::DiagnosticStatusWrapper& status);
+
+/// Publishes on /diagnostics the warning, each input (source, publishers, rate, age, last error), the tool, the
+/// workpieces, which contact is allowed, the detector and its deadlines, the prediction, the time in each stage, the
+/// changed parameters, and the memory of the process.
 class Diagnostics {
  public:
   Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, GuardState& state, const Inputs& inputs,
@@ -63,6 +67,7 @@ class Diagnostics {
   Counts poses_;  // at the end of the last period
   Counts meshes_;
   Counts vertices_;
+  sweep_guard_core::RepeatedPositions::Counts repeated_;
   sweep_guard_core::StageTimes stage_times_{};
   sweep_guard_core::SteadyTime stages_read_ = std::chrono::steady_clock::now();
   sweep_guard_core::SweepStatistics::Summary statistics_;  // of the last period

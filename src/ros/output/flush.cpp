@@ -3,10 +3,9 @@
 #include <ros/init.h>
 #include <ros/poll_manager.h>
 
-#include <condition_variable>
+#include <chrono>
+#include <future>
 #include <memory>
-
-#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -16,30 +15,18 @@ namespace {
 constexpr int kRounds = 3;
 constexpr auto kMaxWait = std::chrono::milliseconds(200);
 
-struct Rounds {
-  sweep_guard_core::Mutex mutex;
-  std::condition_variable_any changed;
-  int count GUARDED_BY(mutex) = 0;
-};
-
 }  // namespace
 
 void flush() {
   if (!ros::isStarted() || ros::isShuttingDown()) return;
-  const auto rounds = std::make_shared<Rounds>();
+  const auto done = std::make_shared<std::promise<void>>();
   const auto& poll_manager = ros::PollManager::instance();
-  const auto connection = poll_manager->addPollThreadListener([rounds, poll_manager] {
-    const sweep_guard_core::Lock lock(rounds->mutex);
-    ++rounds->count;
-    rounds->changed.notify_all();
-    if (rounds->count < kRounds) poll_manager->getPollSet().signal();
+  const auto connection = poll_manager->addPollThreadListener([done, poll_manager, rounds = 0]() mutable {
+    if (++rounds == kRounds) done->set_value();
+    if (rounds < kRounds) poll_manager->getPollSet().signal();
   });
   poll_manager->getPollSet().signal();
-  {
-    sweep_guard_core::Lock lock(rounds->mutex);
-    const auto end = std::chrono::steady_clock::now() + kMaxWait;
-    while (rounds->count < kRounds && rounds->changed.wait_until(lock, end) == std::cv_status::no_timeout) continue;
-  }
+  done->get_future().wait_for(kMaxWait);
   poll_manager->removePollThreadListener(connection);
 }
 

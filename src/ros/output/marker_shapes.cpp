@@ -33,23 +33,25 @@ void addShaded(Marker& list, const sweep_guard_core::ConvexShape& shape_T, const
 
 int markersOf(const sweep_guard_core::Tool& body) {
   int cylinders = 0;
-  for (const sweep_guard_core::ConvexPiece& piece : body.pieces()) cylinders += piece.shape_T.asCylinder() ? 1 : 0;
+  for (const sweep_guard_core::ConvexPiece& piece : body.pieces())
+    cylinders += piece.shape_T.asCylinder() != nullptr ? 1 : 0;
   return cylinders + (static_cast<size_t>(cylinders) < body.pieces().size() ? 1 : 0);
 }
 
 // @param id  of its first marker
-void addBody(visualization_msgs::MarkerArray& array, const ToolDrawing& drawing, int id,
-             const sweep_guard_core::Tool& body, const Eigen::Isometry3d& X_WB) {
-  Marker others = marker(drawing.ns, id, Marker::TRIANGLE_LIST, drawing.frame, drawing.stamp);
+void addBody(visualization_msgs::MarkerArray& array, const Marker& tool, int id, const sweep_guard_core::Tool& body,
+             const Eigen::Isometry3d& X_WB) {
+  Marker others = tool;
+  others.type = Marker::TRIANGLE_LIST;
   others.pose = toMsg(X_WB);
-  others.color = drawing.color;
   for (const sweep_guard_core::ConvexPiece& piece : body.pieces()) {
-    if (const auto cylinder = piece.shape_T.asCylinder()) {
-      Marker drawn = marker(drawing.ns, id++, Marker::CYLINDER, drawing.frame, drawing.stamp);
-      drawn.pose = toMsg(X_WB * cylinder->X_TC * Eigen::Translation3d(0.0, 0.0, -0.5 * cylinder->length));
+    if (const auto* const cylinder = piece.shape_T.asCylinder()) {
+      Marker drawn = tool;
+      drawn.id = id++;
+      drawn.type = Marker::CYLINDER;
+      drawn.pose = toMsg(X_WB * piece.shape_T.X_TS() * Eigen::Translation3d(0.0, 0.0, -0.5 * cylinder->length));
       drawn.scale.x = drawn.scale.y = 2.0 * cylinder->radius;
       drawn.scale.z = cylinder->length;
-      drawn.color = drawing.color;
       array.markers.push_back(drawn);
       continue;
     }
@@ -95,13 +97,13 @@ Marker marker(const std::string& ns, int id, int type, const std::string& frame,
   return marker;
 }
 
-void addTool(visualization_msgs::MarkerArray& array, const ToolDrawing& drawing,
+void addTool(visualization_msgs::MarkerArray& array, const Marker& tool,
              const std::vector<sweep_guard_core::Tool>& bodies, const std::vector<Eigen::Isometry3d>& X_WB) {
   int markers = 0;
   for (const sweep_guard_core::Tool& body : bodies) markers += markersOf(body);
-  int id = drawing.index * markers;
+  int id = tool.id * markers;
   for (size_t i = 0; i < bodies.size(); ++i) {
-    addBody(array, drawing, id, bodies[i], X_WB[i]);
+    addBody(array, tool, id, bodies[i], X_WB[i]);
     id += markersOf(bodies[i]);
   }
 }

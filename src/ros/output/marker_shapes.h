@@ -30,17 +30,12 @@ geometry_msgs::Point point(const Eigen::Vector3d& p);
 visualization_msgs::Marker marker(const std::string& ns, int id, int type, const std::string& frame,
                                   sweep_guard_core::Time stamp);
 
-/// Describes the markers of a tool in one pose and color: for each body, one marker for each cylinder and one for the
-/// triangles of all other pieces, without padding.
-struct ToolDrawing {
-  std::string ns;
-  int index;  ///< of the tool in its namespace; ids begin at index times the number of markers of all bodies
-  std::string frame;
-  sweep_guard_core::Time stamp;
-  std_msgs::ColorRGBA color;
-};
+/// Adds the markers of a tool in one pose and color: for each body, one marker for each cylinder and one for the triangles
+/// of all other pieces, without padding.
+/// @param tool  a marker whose namespace, frame, stamp and color all have. Its id is the index of the tool in the
+///              namespace: ids begin at this times the number of markers of all bodies
 /// @param X_WB  pose of each body
-void addTool(visualization_msgs::MarkerArray& array, const ToolDrawing& drawing,
+void addTool(visualization_msgs::MarkerArray& array, const visualization_msgs::Marker& tool,
              const std::vector<sweep_guard_core::Tool>& bodies, const std::vector<Eigen::Isometry3d>& X_WB);
 
 /// Returns the distance [m] between a workpiece and the triangles drawn on it: enough to see them, small for a small

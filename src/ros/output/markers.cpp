@@ -10,15 +10,6 @@
 namespace sweep_guard_ros {
 namespace {
 
-// Everything that the markers of the prediction share.
-struct PredictedScene {
-  const sweep_guard_core::Prediction& prediction;
-  const std::vector<sweep_guard_core::Tool>& bodies;
-  double lift;  // of contact triangles [m], see liftOff()
-  std::string fixed_frame;
-  sweep_guard_core::WarningLevel level;
-};
-
 using sweep_guard_core::WarningLevel;
 using visualization_msgs::Marker;
 
@@ -40,8 +31,7 @@ void fade(Marker& strip, const Eigen::Vector3d& p_W, const std_msgs::ColorRGBA& 
   strip.colors.back().a *= static_cast<float>(share);
 }
 
-std::vector<Eigen::Isometry3d> bodiesAt(const PredictedScene& scene, size_t pose) {
-  const sweep_guard_core::Prediction& prediction = scene.prediction;
+std::vector<Eigen::Isometry3d> bodiesAt(const sweep_guard_core::Prediction& prediction, size_t pose) {
   if (prediction.body_paths.empty()) return {prediction.path[pose].X_WT};
   std::vector<Eigen::Isometry3d> X_WB;
   for (const sweep_guard_core::PredictedPath& path : prediction.body_paths) X_WB.push_back(path[pose].X_WT);
@@ -58,45 +48,45 @@ bool haveMoved(const std::vector<sweep_guard_core::Tool>& bodies, const std::vec
 }
 
 // Adds `predicted_tool`: at most ten ghosts at even intervals, fading with time. Omits a ghost that has hardly moved.
-void addGhosts(visualization_msgs::MarkerArray& array, const PredictedScene& scene) {
-  const sweep_guard_core::PredictedPath& path = scene.prediction.path;
+void addGhosts(visualization_msgs::MarkerArray& array, const MarkerScene& scene, const std::string& fixed_frame) {
+  const sweep_guard_core::PredictedPath& path = scene.prediction->path;
   std::vector<Eigen::Isometry3d> drawn;
   for (int i = 0; i < kGhosts && !path.empty(); ++i) {
     const sweep_guard_core::Duration due = path.back().ahead * (i + 1) / kGhosts;
     const auto pose =
         std::lower_bound(path.begin(), path.end(), due,
                          [](const auto& before, sweep_guard_core::Duration t) { return before.ahead < t; });
-    const std::vector<Eigen::Isometry3d> X_WB = bodiesAt(scene, static_cast<size_t>(pose - path.begin()));
-    if (!drawn.empty() && !haveMoved(scene.bodies, drawn, X_WB)) continue;
+    const std::vector<Eigen::Isometry3d> X_WB = bodiesAt(*scene.prediction, static_cast<size_t>(pose - path.begin()));
+    if (!drawn.empty() && !haveMoved(*scene.bodies, drawn, X_WB)) continue;
     drawn = X_WB;
-    const std_msgs::ColorRGBA fading = color(0.45, 0.65, 1.0, 0.5 * (kGhosts - i) / kGhosts);
-    addTool(array, {"predicted_tool", i, scene.fixed_frame, scene.prediction.stamp, unlessUnknown(scene.level, fading)},
-            scene.bodies, X_WB);
+    Marker ghost = marker("predicted_tool", i, Marker::CYLINDER, fixed_frame, scene.prediction->stamp);
+    ghost.color = unlessUnknown(scene.warning.level, color(0.45, 0.65, 1.0, 0.5 * (kGhosts - i) / kGhosts));
+    addTool(array, ghost, *scene.bodies, X_WB);
   }
 }
 
 // Adds `predicted_volume`: the faint boxes and planes of the predicted sweeps.
-void addPredictedVolumes(visualization_msgs::MarkerArray& array, const PredictedScene& scene) {
+void addPredictedVolumes(visualization_msgs::MarkerArray& array, const MarkerScene& scene) {
   int index = 0;
-  for (const sweep_guard_core::PredictedObject& object : scene.prediction.objects) {
+  for (const sweep_guard_core::PredictedObject& object : scene.prediction->objects) {
     if (object.workpiece->of_other_tool) continue;
-    SurfaceMarker surface("predicted_volume", index++, object.workpiece->frame, scene.prediction.stamp, 0.0005);
-    surface.paint(levelColor(scene.level, 0.03), levelColor(scene.level, 0.12));
+    SurfaceMarker surface("predicted_volume", index++, object.workpiece->frame, scene.prediction->stamp, 0.0005);
+    surface.paint(levelColor(scene.warning.level, 0.03), levelColor(scene.warning.level, 0.12));
     for (const sweep_guard_core::SweptVolume& volume_M : object.volumes_M) surface.add(volume_M);
     surface.moveInto(array);
   }
 }
 
 // Adds `predicted_triangles`: contacts within the reflex interval in red, later ones in amber.
-void addPredictedTriangles(visualization_msgs::MarkerArray& array, const PredictedScene& scene) {
-  const double lift = 0.5 * scene.lift;  // half as high as contacts, which are drawn above
+void addPredictedTriangles(visualization_msgs::MarkerArray& array, const MarkerScene& scene) {
+  const double lift = 0.5 * liftOff(*scene.tool);  // half as high as contacts, which are drawn above
   int index = 0;
-  for (const sweep_guard_core::PredictedObject& object : scene.prediction.objects) {
+  for (const sweep_guard_core::PredictedObject& object : scene.prediction->objects) {
     if (object.workpiece->of_other_tool) continue;
     for (const auto& [level, triangles] :
          {std::pair{WarningLevel::kReflex, &object.reflex}, {WarningLevel::kConsidered, &object.considered}}) {
-      const WarningLevel shown = scene.level == WarningLevel::kUnknown ? WarningLevel::kUnknown : level;
-      SurfaceMarker surface("predicted_triangles", index++, object.workpiece->frame, scene.prediction.stamp, lift);
+      const WarningLevel shown = scene.warning.level == WarningLevel::kUnknown ? WarningLevel::kUnknown : level;
+      SurfaceMarker surface("predicted_triangles", index++, object.workpiece->frame, scene.prediction->stamp, lift);
       surface.paint(levelColor(shown, 0.8), levelColor(shown, 0.95));
       surface.add(object.workpiece->mesh_M, *triangles, lift);
       surface.moveInto(array);
@@ -115,28 +105,25 @@ void addTrail(visualization_msgs::MarkerArray& array, const sweep_guard_core::Tr
   strip.color = unlessUnknown(level, color(0.9, 0.9, 0.9, 0.8));
   for (const sweep_guard_core::Trail::Point& past : trail.points()) {
     const double age = sweep_guard_core::toSeconds(newest - past.stamp);
-    fade(strip, past.p_W, strip.color, span > 0.0 ? 1.0 - age / span : 1.0);
+    fade(strip, past.value, strip.color, span > 0.0 ? 1.0 - age / span : 1.0);
   }
   array.markers.push_back(std::move(strip));
 }
 
-void addPredictedTrail(visualization_msgs::MarkerArray& array, const PredictedScene& scene,
-                       const Eigen::Vector3d& from_W) {
-  const sweep_guard_core::PredictedPath& path = scene.prediction.path;
+void addPredictedTrail(visualization_msgs::MarkerArray& array, const MarkerScene& scene,
+                       const std::string& fixed_frame) {
+  const sweep_guard_core::PredictedPath& path = scene.prediction->path;
   if (path.empty()) return;
-  Marker strip = marker("trajectory", 1, Marker::LINE_STRIP, scene.fixed_frame, scene.prediction.stamp);
+  Marker strip = marker("trajectory", 1, Marker::LINE_STRIP, fixed_frame, scene.prediction->stamp);
   strip.scale.x = 0.003;
-  strip.color = unlessUnknown(scene.level, color(0.45, 0.65, 1.0, 0.95));
-  fade(strip, from_W, strip.color, 1.0);
+  strip.color = unlessUnknown(scene.warning.level, color(0.45, 0.65, 1.0, 0.95));
+  fade(strip, scene.prediction_from_W, strip.color, 1.0);
   const double span = sweep_guard_core::toSeconds(path.back().ahead);
   for (const sweep_guard_core::PredictedPose& pose : path) {
     fade(strip, pose.X_WT.translation(), strip.color, 1.0 - 0.7 * sweep_guard_core::toSeconds(pose.ahead) / span);
   }
   array.markers.push_back(std::move(strip));
 }
-
-using sweep_guard_core::WarningLevel;
-using visualization_msgs::Marker;
 
 constexpr double kLineWidth = 0.001;  // [m]
 
@@ -221,9 +208,9 @@ visualization_msgs::MarkerArray Markers::draw(const MarkerScene& scene) {
   return array;
 }
 
-bool isOfWarning(const MarkerScene& scene, sweep_guard_core::Duration hold) {
+bool isOfWarning(const MarkerScene& scene, const sweep_guard_core::WarningLimits& limits) {
   constexpr sweep_guard_core::Duration kDelay = std::chrono::milliseconds(100);  // of the newest pose
-  if (!scene.contact || scene.newest->end - scene.contact->end > hold + kDelay) return false;
+  if (!scene.contact || !limits.hold(scene.newest->end - scene.contact->end - kDelay)) return false;
   const auto& objects = scene.contact->objects;
   return std::any_of(objects.begin(), objects.end(), [&](const sweep_guard_core::SweptObject& object) {
     return object.workpiece->id == scene.warning.mesh_id && object.result.unintendedContact();
@@ -233,8 +220,9 @@ bool isOfWarning(const MarkerScene& scene, sweep_guard_core::Duration hold) {
 void Markers::addMeasured(visualization_msgs::MarkerArray& array, const MarkerScene& scene) const {
   const WarningLevel level = scene.warning.level;
   const sweep_guard_core::Time stamp = scene.newest->end;
-  addTool(array, {"tool", 0, fixed_frame_, stamp, unlessUnknown(level, color(0.35, 0.5, 0.9, 0.8))}, *scene.bodies,
-          bodyPoses(scene));
+  Marker tool = marker("tool", 0, Marker::CYLINDER, fixed_frame_, stamp);
+  tool.color = unlessUnknown(level, color(0.35, 0.5, 0.9, 0.8));
+  addTool(array, tool, *scene.bodies, bodyPoses(scene));
 
   Marker text = marker("warning_text", 0, Marker::TEXT_VIEW_FACING, fixed_frame_, stamp);
   text.pose = toMsg(scene.X_WT * Eigen::Translation3d(textPosition(*scene.tool)));
@@ -249,12 +237,10 @@ void Markers::addMeasured(visualization_msgs::MarkerArray& array, const MarkerSc
 }
 
 void Markers::addPredicted(visualization_msgs::MarkerArray& array, const MarkerScene& scene) const {
-  const PredictedScene predicted{*scene.prediction, *scene.bodies, liftOff(*scene.tool), fixed_frame_,
-                                 scene.warning.level};
-  addGhosts(array, predicted);
-  addPredictedVolumes(array, predicted);
-  addPredictedTriangles(array, predicted);
-  addPredictedTrail(array, predicted, scene.prediction_from_W);
+  addGhosts(array, scene, fixed_frame_);
+  addPredictedVolumes(array, scene);
+  addPredictedTriangles(array, scene);
+  addPredictedTrail(array, scene, fixed_frame_);
 }
 
 void Markers::deleteOld(visualization_msgs::MarkerArray& array) {

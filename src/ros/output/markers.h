@@ -25,7 +25,7 @@ struct MarkerScene {
   std::shared_ptr<const sweep_guard_core::SweepReport> contact;       ///< newest one with a contact; null: none
   std::shared_ptr<const sweep_guard_core::Prediction> prediction;     ///< newest one; null: none yet
   Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();             ///< tool pose of the newest report
-  std::vector<sweep_guard_core::BodyPose> body_poses;                 ///< PoseWithFrames::bodies at the same time
+  std::vector<sweep_guard_core::BodyPose> body_poses;                 ///< of an articulated tool at the same time
   Eigen::Vector3d prediction_from_W = Eigen::Vector3d::Zero();  ///< tip of the tool where the prediction begins [m]
   sweep_guard_core::Trail trail;
   sweep_guard_core::Warning warning;
@@ -33,8 +33,7 @@ struct MarkerScene {
 
 /// Returns whether the scene's contact is the one that the warning reports. It is not if it is older than what may be
 /// held, or of another workpiece: detectors may also disagree about a sweep that met nothing.
-/// @param hold  how long a contact is shown after its end, >= 0
-bool isOfWarning(const MarkerScene& scene, sweep_guard_core::Duration hold);
+bool isOfWarning(const MarkerScene& scene, const sweep_guard_core::WarningLimits& limits);
 
 /// Returns the namespaces of all markers, in the order of the documentation.
 const std::vector<std::string>& markerNamespaces();

@@ -15,6 +15,10 @@ sweep_guard_core::Duration markerPeriod(const Parameters& parameters) {
   return sweep_guard_core::fromSeconds(1.0 / parameters.marker_rate);
 }
 
+ServiceDependencies dependenciesIn(GuardState& state) {
+  return {state.parameters, state.frames, state.workpieces, state.monitor};
+}
+
 }  // namespace
 
 Outputs::Outputs(const ros::NodeHandle& node, const ros::NodeHandle& private_node, GuardState& state,
@@ -23,21 +27,21 @@ Outputs::Outputs(const ros::NodeHandle& node, const ros::NodeHandle& private_nod
       guard_(guard),
       marker_timer_(
           reports_.every(markerPeriod(state.parameters.initial()), [&state] { state.scene.publishMarkers(); })),
-      path_tests_({state.parameters, state.frames, state.workpieces, state.monitor, &state.frame_motions}),
-      check_sweep_(private_node, service_threads_, path_tests_),
-      check_trajectory_(private_node, service_threads_, path_tests_),
+      path_tests_(dependenciesIn(state), &state.frame_motions),
+      check_sweep_(private_node, "check_sweep", service_threads_, path_tests_, checkSweep),
+      check_trajectory_(private_node, "check_trajectory", service_threads_, path_tests_, checkTrajectory),
       predict_(private_node, service_threads_, state.parameters, state.workpieces,
                [&guard](sweep_guard_core::Duration horizon) { return guard.thread().predictMotion(horizon); }),
       controls_(private_node, state.parameters, state.monitor, state.workpieces, service_threads_,
                 {[&guard] { guard.thread().reset(); },
                  [&guard](const std::string& id) { return guard.thread().acknowledge(id); },
                  [&state] { state.touches.reset(); }}),
-      intend_(private_node, service_threads_, {state.parameters, state.frames, state.workpieces, state.intentions}),
-      attach_(private_node, service_threads_, {state.parameters, state.frames, state.workpieces, state.monitor},
-              {[&guard] { return guard.thread().newestPose(); },
-               [&guard](const auto& before, const auto& next, const auto& also) {
-                 guard.thread().exchangeTool(before, next, also);
-               }}),
+      intend_(private_node, service_threads_, dependenciesIn(state), state.intentions),
+      attach_(
+          private_node, service_threads_, dependenciesIn(state), [&guard] { return guard.thread().newestPose(); },
+          [&guard](const auto& before, const auto& next, const auto& also) {
+            guard.thread().exchangeTool(before, next, also);
+          }),
       reconfigure_server_(private_node, service_threads_, master, state.parameters,
                           [this](const auto& wanted) { apply(wanted); }),
       diagnostics_(node, private_node, state, inputs, reconfigure_server_) {

@@ -39,8 +39,8 @@ class Outputs {
   TimerThread reports_;
   TimerThread::Timer& marker_timer_;
   PathTests path_tests_;
-  CheckSweepService check_sweep_;
-  CheckTrajectoryService check_trajectory_;
+  PathService check_sweep_;
+  PathService check_trajectory_;
   PredictService predict_;
   Controls controls_;
   IntendService intend_;

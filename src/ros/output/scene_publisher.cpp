@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "ros/output/view_messages.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
@@ -12,8 +13,10 @@ ScenePublisher::ScenePublisher(ros::NodeHandle private_node, const LiveParameter
       monitor_(monitor),
       markers_(parameters.initial().fixed_frame),
       marker_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("markers", 1)),
-      view_(private_node, parameters.initial().fixed_frame, parameters.initial().tool_frame,
-            *parameters.initial().bodies) {}
+      view_publisher_(private_node.advertise<sweep_guard::View>("view", 1)),
+      tool_publisher_(private_node.advertise<sweep_guard::ToolShape>("tool", 1, /*latch=*/true)) {
+  setTool(*parameters.initial().bodies);
+}
 
 void ScenePublisher::passed(const sweep_guard_core::PoseWithFrames& pose) {
   const sweep_guard_core::Lock lock(mutex_);
@@ -24,7 +27,7 @@ void ScenePublisher::swept(const sweep_guard_core::PoseWithFrames& pose,
                            std::shared_ptr<const sweep_guard_core::SweepReport> report) {
   const sweep_guard_core::Lock lock(mutex_);
   scene_.X_WT = pose.X_WT;
-  scene_.body_poses = pose.bodies;
+  if (parameters_.initial().articulated) scene_.body_poses.assign(pose.bodies.begin(), pose.bodies.end());
   scene_.trail.add(pose.stamp, pose.X_WT.translation());
   if (report->unintendedContact()) scene_.contact = report;
   scene_.newest = std::move(report);
@@ -42,14 +45,22 @@ void ScenePublisher::clear() {
   scene_ = {};
 }
 
-void ScenePublisher::setTool(const std::vector<sweep_guard_core::Tool>& bodies) { view_.publishTool(bodies); }
+void ScenePublisher::setTool(const std::vector<sweep_guard_core::Tool>& bodies) {
+  sweep_guard::ToolShape shape = toMsg(bodies);
+  shape.header.frame_id = parameters_.initial().tool_frame;
+  tool_publisher_.publish(shape);
+}
 
 void ScenePublisher::publishMarkers() {
   if (marker_publisher_.getNumSubscribers() > 0) marker_publisher_.publish(markers_.draw(currentScene()));
 }
 
 void ScenePublisher::publishView() const {
-  if (view_.hasSubscribers()) view_.publish(currentScene());
+  if (view_publisher_.getNumSubscribers() == 0) return;
+  sweep_guard::View view = toMsg(currentScene());
+  view.header.frame_id = parameters_.initial().fixed_frame;
+  view.tool = parameters_.initial().tool_frame;
+  view_publisher_.publish(view);
 }
 
 MarkerScene ScenePublisher::currentScene() const {
@@ -63,7 +74,7 @@ MarkerScene ScenePublisher::currentScene() const {
   scene.bodies = parameters->bodies;
   scene.namespaces = parameters->marker_namespaces;
   monitor_.warning(now(), scene.warning);
-  if (!isOfWarning(scene, parameters->limits.hold_time)) scene.contact.reset();
+  if (!isOfWarning(scene, parameters->limits)) scene.contact.reset();
   return scene;
 }
 

@@ -5,16 +5,15 @@
 
 #include <memory>
 
+#include "common/guarded_by.h"
 #include "ros/output/markers.h"
-#include "ros/output/view_publisher.h"
 #include "ros/parameters/parameters.h"
-#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {
 
-/// Keeps the newest results of the guard and publishes them for displays: `~markers`, `~view` and, once, `~tool`. One
-/// thread reports results, another one publishes.
+/// Keeps the newest results of the guard and publishes them for displays: `~markers`, `~view` and, once and for each
+/// other tool, `~tool`. One thread reports results, another one publishes.
 class ScenePublisher {
  public:
   ScenePublisher(ros::NodeHandle private_node, const LiveParameters& parameters,
@@ -37,7 +36,8 @@ class ScenePublisher {
   const sweep_guard_core::WarningMonitor& monitor_;
   Markers markers_;
   ros::Publisher marker_publisher_;
-  ViewPublisher view_;
+  ros::Publisher view_publisher_;
+  ros::Publisher tool_publisher_;
   mutable sweep_guard_core::Mutex mutex_;
   MarkerScene scene_ GUARDED_BY(mutex_);
 };

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sweep_guard/common/mutex.h"
+#include "common/guarded_by.h"
 #include "sweep_guard/interaction/touch_map.h"
 
 namespace sweep_guard_ros {

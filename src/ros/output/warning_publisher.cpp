@@ -14,7 +14,6 @@ using sweep_guard_core::InStage;
 using sweep_guard_core::Stage;
 
 constexpr auto kPeriod = std::chrono::milliseconds(45);  // 20 Hz at least, polled every 10 ms
-constexpr auto kValid = std::chrono::milliseconds(200);
 
 std_msgs::Bool flagMessage(bool raised) {
   std_msgs::Bool msg;
@@ -85,7 +84,7 @@ void WarningPublisher::publish(bool only_if_changed) {
   next.level_counts = message_.level_counts;
   next.run_id = message_.run_id;
   if (new_level) ++next.level_counts[next.level];
-  next.valid_until = toMsg(at.stamp + kValid);
+  next.valid_until = toMsg(at.stamp + sweep_guard_core::kWarningValid);
   const bool reflex_rises = next.reflex && !message_.reflex;
   const bool considered_rises = next.considered && !message_.considered;
   message_ = next;

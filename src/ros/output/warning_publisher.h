@@ -4,8 +4,8 @@
 #include <ros/publisher.h>
 #include <sweep_guard/Warning.h>
 
+#include "common/guarded_by.h"
 #include "ros/parameters/parameters.h"
-#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {

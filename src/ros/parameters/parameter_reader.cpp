@@ -40,12 +40,12 @@ void ParameterReader::describe(ParameterInfo info) {
 }
 
 double ParameterReader::number(const std::string& key, double fallback, const Range& range, const std::string& effect,
-                               const std::optional<Bound>& bound) {
+                               const std::optional<Range>& narrowed) {
   XmlRpc::XmlRpcValue value;
   if (!get(key, value)) value = fallback;
-  const Range& narrowest = bound ? bound->range : range;
+  const Range& narrowest = narrowed ? *narrowed : range;
   if (!within(toNumber(value), narrowest))
-    refuse(key, value, shown(narrowest) + (bound ? std::string(": ") + bound->note : ""));
+    refuse(key, value, shown(narrowest) + (narrowed ? std::string(": ") + narrowed->note : ""));
   describe(
       {key, toNumber(value), fallback, range.lowest, range.highest, {}, sweep_guard_ros::described(range), effect});
   return toNumber(value);
@@ -155,16 +155,24 @@ std::vector<std::string> ParameterReader::texts(const std::string& key, const st
 }
 
 // A nodelet has not the namespace of its process.
+std::string ParameterReader::resolved(const std::string& key, const std::string& name) const {
+  std::string error;
+  if (ros::names::validate(name, error))
+    return ros::names::resolve(ros::names::parentNamespace(node_.getNamespace()), name);
+  throw sweep_guard_core::InvalidInput("parameter " + key + " has no name of a node: " + error);
+}
+
+std::string ParameterReader::node(const std::string& key, const std::string& fallback, const std::string& effect) {
+  return resolved(key, name(key, fallback, effect));
+}
+
 std::vector<std::string> ParameterReader::nodes(const std::string& key, const std::string& effect) {
   const auto refusal = [&](const std::string& why) {
     return sweep_guard_core::InvalidInput("parameter " + key + " has " + why);
   };
-  const std::string scope = ros::names::parentNamespace(node_.getNamespace());
   std::vector<std::string> nodes;
   for (const std::string& name : texts(key, effect)) {
-    std::string error;
-    if (!ros::names::validate(name, error)) throw refusal("no name of a node: " + error);
-    nodes.push_back(ros::names::resolve(scope, name));
+    nodes.push_back(resolved(key, name));
     if (std::count(nodes.begin(), nodes.end(), nodes.back()) > 1) {
       throw refusal(nodes.back() + " twice: name each node once");
     }
@@ -213,6 +221,26 @@ std::map<std::string, double> ParameterReader::numbers(const std::string& key, c
   }
   describe({key, "{" + entries + "}", std::string("{}"), 0.0, 0.0, {}, wanted, effect});
   return numbers;
+}
+
+std::map<std::string, std::string> ParameterReader::textsByName(const std::string& key, const std::string& effect) {
+  XmlRpc::XmlRpcValue value;
+  const std::string wanted = "a group of texts, or {}";
+  std::map<std::string, std::string> texts;
+  std::string entries;
+  if (get(key, value)) {
+    if (value.getType() != XmlRpc::XmlRpcValue::TypeStruct) refuse(key, value, wanted);
+    for (auto& [name, entry] : value) {
+      const std::string entry_key = std::string(key).append("/").append(name);
+      read_.insert(entry_key);
+      if (entry.getType() != XmlRpc::XmlRpcValue::TypeString) refuse(entry_key, entry, "a text");
+      texts[name] = static_cast<std::string>(entry);
+      if (texts[name].empty()) refuse(entry_key, entry, "a text, not empty");
+      entries += (entries.empty() ? "" : ", ") + name + ": " + texts[name];
+    }
+  }
+  describe({key, "{" + entries + "}", std::string("{}"), 0.0, 0.0, {}, wanted, effect});
+  return texts;
 }
 
 std::map<std::string, bool> ParameterReader::flagsOf(const std::string& key, const std::string& flag,

@@ -5,8 +5,8 @@
 #include <map>
 #include <string>
 
+#include "common/guarded_by.h"
 #include "ros/threads/master_thread.h"
-#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/ros/parameters/parameter_reader.h"
 
 namespace sweep_guard_ros {

@@ -98,16 +98,16 @@ sweep_guard_core::HorizonOptions readHorizon(ParameterReader& read, Duration pos
                                            "A collision predicted within this time from now raises REFLEX.");
   const double reflex_step = read.live().number(
       "horizon/reflex_step", 0.01, any, "Duration of a predicted sweep within horizon/reflex; at most horizon/reflex.",
-      ParameterReader::Bound{{kMinStep, reflex}, "at most horizon/reflex"});
+      ParameterReader::Range{kMinStep, reflex, "", "at most horizon/reflex"});
   const double considered = read.live().number(
       "horizon/considered", 1.0, any,
       "A collision predicted within this time from now raises CONSIDERED. Must be later than horizon/reflex.",
-      ParameterReader::Bound{{reflex + kMinStep, kMaxHorizon}, "later than horizon/reflex"});
+      ParameterReader::Range{reflex + kMinStep, kMaxHorizon, "", "later than horizon/reflex"});
   const double considered_step = read.live().number(
       "horizon/considered_step", 0.1, any,
       "Duration of a predicted sweep after horizon/reflex; at most horizon/considered less horizon/reflex. The sweeps "
       "become longer where the detector is too slow for timing/min_rate.",
-      ParameterReader::Bound{{kMinStep, considered - reflex}, "at most horizon/considered less horizon/reflex"});
+      ParameterReader::Range{kMinStep, considered - reflex, "", "at most horizon/considered less horizon/reflex"});
   return {toDuration(reflex), toDuration(reflex_step), toDuration(considered), toDuration(considered_step),
           pose_timeout};
 }
@@ -124,7 +124,7 @@ WarningThresholds readThresholds(ParameterReader& read, WarningThresholds thresh
       "CONSIDERED stays while a contact with that workpiece within horizon/considered is at least this "
       "probable; at most "
       "warning/considered_on. Smaller interrupts a warning less often.",
-      ParameterReader::Bound{{kMinProbability, thresholds.considered_on}, "at most warning/considered_on"});
+      ParameterReader::Range{kMinProbability, thresholds.considered_on, "", "at most warning/considered_on"});
   thresholds.reflex = read.live().number(
       "warning/reflex_probability", thresholds.reflex, any,
       "A contact off the predicted path raises REFLEX from this probability within horizon/reflex on.");

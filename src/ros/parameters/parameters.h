@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "common/guarded_by.h"
 #include "ros/tool/tool_model.h"
-#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/guard/guard.h"
 #include "sweep_guard/interaction/interaction_finder.h"
 #include "sweep_guard/monitor/warning.h"
@@ -35,6 +35,8 @@ struct Parameters {
   std::shared_ptr<const std::vector<sweep_guard_core::Tool>> bodies;
   bool articulated;                            ///< joints of the tool move, as `joint_states` says: `robot` is there
   std::map<std::string, double> fixed_joints;  ///< positions [rad or m] of joints that `joint_states` need not have
+  std::map<std::string, std::string>
+      joint_names;  ///< names of joints in the URDF, by those in `joint_states` that differ
   std::map<std::string, sweep_guard_core::Duration> joint_timeouts;  ///< where a joint has its own
   sweep_guard_core::Duration joint_timeout;                          ///< of the others, and of the tool pose
   std::shared_ptr<const RobotModel> robot;  ///< whose links are the tool; null: nothing that joints move
@@ -42,6 +44,7 @@ struct Parameters {
   double tool_padding;                      ///< [m]
   std::set<std::string> attached;           ///< workpieces that are part of the tool, as links of these names (~attach)
   std::string tool_description;             ///< shape and source of the tool, for people
+  std::vector<LinkShape> link_shapes;       ///< what each link is made of, without what is attached; none of a cylinder
   sweep_guard_core::DetectorChoice detector;  ///< as configured, until it is replaced by one that is available
   SelfTest self_test;
   int cross_check;  ///< one query of the detector out of this many is asked twice; 0: none

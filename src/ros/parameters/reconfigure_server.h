@@ -9,11 +9,11 @@
 #include <memory>
 #include <string>
 
+#include "common/guarded_by.h"
 #include "ros/parameters/parameter_writer.h"
 #include "ros/parameters/parameters.h"
 #include "ros/service/limited_calls.h"
 #include "ros/service/service_threads.h"
-#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 

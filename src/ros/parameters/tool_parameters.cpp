@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "ros/input/joint_names.h"
 #include "ros/tool/robot_tree.h"
 #include "ros/tool/tool_links.h"
 #include "sweep_guard/common/error.h"
@@ -31,6 +32,12 @@ ToolModelOptions readModelOptions(ParameterReader& read, const std::string& fram
   options.links = read.texts("tool/links",
                              "urdf only: links that are the tool. []: the link tool_frame and all that is attached to "
                              "it.");
+  const std::string geometry =
+      read.choice("tool/geometry", "collision", {"collision", "visual", "either"},
+                  "urdf only: geometry of the links that the tool is made of. either: the collision geometry of a "
+                  "link or, where it has none, its visual geometry; /diagnostics says which (tool).");
+  if (geometry == "visual") options.geometry = LinkGeometry::kVisual;
+  if (geometry == "either") options.geometry = LinkGeometry::kEither;
   options.mesh_depth =
       read.integer("tool/mesh_depth", options.mesh_depth, 0, 16,
                    "urdf only: a mesh is cut in two up to this many times where that makes the tool "
@@ -56,11 +63,21 @@ std::string describe(const ToolModel& model, const std::string& parameter, const
   return text.str();
 }
 
+void checkJointNames(const Parameters& parameters) {
+  const sweep_guard_core::KinematicTree& tree = parameters.robot->robot.tree;
+  try {
+    const JointNames names(tree, fixedPositions(tree, parameters.fixed_joints), parameters.joint_names);
+  } catch (const sweep_guard_core::InvalidInput& error) {
+    throw sweep_guard_core::InvalidInput(std::string("tool/joint_names: ") + error.what());
+  }
+}
+
 // Of a tool whose joints move.
 void checkJoints(const Parameters& parameters) {
   if (!parameters.robot) throw sweep_guard_core::InvalidInput(parameters.why_no_robot);
   const sweep_guard_core::KinematicTree& tree = parameters.robot->robot.tree;
   for (const auto& [joint, timeout] : parameters.joint_timeouts) variableNamed(tree, joint);
+  checkJointNames(parameters);
   const auto is_fixed = [&](const auto& variable) { return parameters.fixed_joints.count(variable.name) != 0; };
   if (std::all_of(tree.variables().begin(), tree.variables().end(), is_fixed)) {
     throw sweep_guard_core::InvalidInput(
@@ -81,6 +98,7 @@ void readRobot(ParameterReader& read, const std::string& parameter, const ToolMo
     parameters.tool_description = describe(model, parameter, parameters);
     parameters.robot = model.robot;
     parameters.why_no_robot = model.why_no_robot;
+    parameters.link_shapes = model.shapes;
     if (parameters.articulated) checkJoints(parameters);
     parameters.tool = std::make_shared<const sweep_guard_core::Tool>(parameters.articulated ? piecesByBody(*model.robot)
                                                                                             : std::move(model.pieces));
@@ -133,7 +151,7 @@ std::map<std::string, Duration> readJointTimeouts(ParameterReader& read) {
 void readTool(ParameterReader& read, const Parameters* before, Parameters& parameters) {
   const std::string type = read.choice("tool/type", "cylinder", {"cylinder", "urdf"},
                                        "cylinder: the tool fills z in [-tool/length, 0] of its frame; z points out of "
-                                       "the tip. urdf: the tool is the collision geometry of a robot description.");
+                                       "the tip. urdf: the tool is the geometry of a robot description's links.");
   const double padding = read.live().number("tool/padding", 0.0, {0.0, 1.0, "m"}, "Grows the tool on all sides.");
   const sweep_guard_core::Tool cylinder = readCylinder(read, padding);
   const std::string description = read.name("tool/robot_description", "robot_description",
@@ -146,6 +164,10 @@ void readTool(ParameterReader& read, const Parameters* before, Parameters& param
       "tool/joint_states", false,
       "urdf only: joints of the tool move, and `joint_states` says how. tool_frame must be a link that none of "
       "them moves. Implied by tool_source joint_states. ~proximity is silent then.");
+  parameters.joint_names = read.textsByName(
+      "tool/joint_names",
+      "urdf only: names of joints in the robot description, by their names in `joint_states`, where these differ: "
+      "{outer_yaw: yaw}. ~check_trajectory takes both.");
   parameters.joint_timeouts = readJointTimeouts(read);
   parameters.guard.allowed = readAllowed(read);
   parameters.articulated = joint_states || parameters.tool_source == ToolSource::kJointStates;
@@ -161,6 +183,7 @@ void readTool(ParameterReader& read, const Parameters* before, Parameters& param
     parameters.fixed_joints = before->fixed_joints;
     parameters.tool_description = before->tool_description;
     parameters.robot = before->robot;
+    parameters.link_shapes = before->link_shapes;
     parameters.why_no_robot = before->why_no_robot;
   } else if (type == "urdf") {
     readRobot(read, description, options, parameters);

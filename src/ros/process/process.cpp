@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <clocale>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -58,6 +59,8 @@ bool listensOn(int socket, int port) {
 bool isLoopback(const std::string& host) { return host == "localhost" || host == "::1" || host.rfind("127.", 0) == 0; }
 
 }  // namespace
+
+void logInUtf8() { std::setlocale(LC_CTYPE, "C.UTF-8"); }
 
 // roscpp has no setting for the address of its server, and does not hand out the socket.
 void keepToLoopback() {

@@ -21,6 +21,9 @@ void limitRealTime(sweep_guard_core::Duration longest);
 /// is the shortest there is. From Linux 6.12 on it preempts threads whose slices are longer; before, slices are all alike.
 void setPrompt();
 
+/// Lets the logs of the process show all characters: without a locale, log4cxx takes text for ASCII. Before the first log.
+void logInUtf8();
+
 /// Lets the XML-RPC server of roscpp, which listens on every interface, answer on the loopback interface alone if
 /// ROS_IP or ROS_HOSTNAME is there. Call it when the first node handle exists. Logs a failure.
 void keepToLoopback();

@@ -89,6 +89,7 @@ int runNode(const char* name, int argc, char** argv, const std::function<std::sh
             std::chrono::milliseconds time_to_end) {
   return sweep_guard_core::runProgram(name, [&] {
     shareHeaps();
+    logInUtf8();
     ros::init(argc, argv, name, ros::init_options::NoSigintHandler);  // throws at a refused name or remapping
     EndRequest end(time_to_end);
     const ros::NodeHandle alive;  // the console is silent without a handle

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "common/number_text.h"
 #include "guard/rigid_shape.h"
 #include "ros/tool/payload.h"
 #include "sweep_guard/common/error.h"
@@ -36,7 +37,7 @@ Eigen::Isometry3d motionSince(const Workpiece& before, const Workpiece& newest) 
   const sweep_guard_core::RigidFit fit = sweep_guard_core::rigidFit(before.mesh_M, newest.mesh_M);
   const double rounding = before.mesh_M.rounding() + newest.mesh_M.rounding();
   if (fit.deviation <= sweep_guard_core::WorkpieceStore::rigidWithin(rounding)) return fit.X_MM;
-  throw InvalidInput("'" + before.id + "' has deformed by " + std::to_string(fit.deviation) +
+  throw InvalidInput("'" + before.id + "' has deformed by " + sweep_guard_core::shortText(fit.deviation) +
                      " m meanwhile: the tool can carry what keeps its shape");
 }
 
@@ -44,35 +45,29 @@ Eigen::Isometry3d motionSince(const Workpiece& before, const Workpiece& newest) 
 Workpiece movedBy(const Eigen::Isometry3d& X_MM, const Workpiece& held, const PoseWithFrames& pose) {
   std::vector<Eigen::Vector3d> vertices_M;
   for (size_t i = 0; i < held.mesh_M.vertexCount(); ++i) vertices_M.push_back(X_MM * held.mesh_M.vertex(i));
-  TriangleMesh moved_M(vertices_M, held.mesh_M.triangles(), held.mesh_M.surfaceKind(), held.mesh_M.rounding());
+  TriangleMesh moved_M(vertices_M, held.mesh_M.triangles(), held.mesh_M.isSheet(), held.mesh_M.rounding());
   return {held.id, held.revision, pose.stamp, pose.received, held.frame, std::move(moved_M)};
 }
 
 }  // namespace
 
 AttachService::AttachService(const ros::NodeHandle& private_node, ServiceThreads& threads,
-                             const AttachDependencies& dependencies, ToolControls tool)
+                             const ServiceDependencies& dependencies, NewestPose newest_pose,
+                             ExchangeTool exchange_tool)
     : dependencies_(dependencies),
-      tool_(std::move(tool)),
+      newest_pose_(std::move(newest_pose)),
+      exchange_tool_(std::move(exchange_tool)),
       calls_(threads.lasting, threads.refusals),
-      server_(calls_.advertise<Event>(
-          private_node, "attach", kMaxRequest, [this](Event& event) { return onCall(event); },
-          [](const std::string& reason, sweep_guard::Attach::Response& response) {
-            response.message = reason;
-            return true;
-          })) {}
+      server_(calls_.advertise<Event>(private_node, "attach", kMaxRequest,
+                                      [this](Event& event) { return onCall(event); })) {}
 
-// Answers errors by a message: a failed ROS call gives the caller none.
 bool AttachService::onCall(Event& event) {
   const sweep_guard::Attach::Request& request = event.getRequest();
   sweep_guard::Attach::Response& response = event.getResponse();
-  try {
+  answerWith(response, [&] {
     if (!sweep_guard_core::isName(request.mesh_id)) throw InvalidInput("mesh_id is no name");
-    response.message = request.attach != 0 ? attach(request.mesh_id, request.link) : detach(request.mesh_id);
-    response.success = 1;
-  } catch (const std::exception& error) {
-    response.message = error.what();
-  }
+    return request.attach != 0 ? attach(request.mesh_id, request.link) : detach(request.mesh_id);
+  });
   ROS_INFO("~attach called by %s: %s", printable(event.getCallerName()).c_str(), response.message.c_str());
   return true;
 }
@@ -89,8 +84,8 @@ std::string AttachService::attach(const std::string& id, const std::string& link
   const PoseWithFrames pose = newestPose();
   payload.X_WM = lookup(newest->frame, pose.stamp) * motionSince(*cut, *newest);
   const auto next = std::make_shared<const Parameters>(withPayload(*before, payload, pose));
-  tool_.exchange_tool(before, next, [&] {
-    dependencies_.workpieces.attach(cut, pose.body(bodyWithLink(*before, link)).X_WB.inverse() * payload.X_WM);
+  exchange_tool_(before, next, [&] {
+    dependencies_.workpieces.attach(cut, pose.bodies[bodyWithLink(*before, link)].X_WB.inverse() * payload.X_WM);
     require(*next);
   });
   return "'" + id + "' is part of the tool: " + std::to_string(payload.shapes_M.size()) + " convex piece(s) on " +
@@ -111,10 +106,10 @@ std::string AttachService::detach(const std::string& id) {
   const auto held = dependencies_.workpieces.attached(id);
   if (!held) throw InvalidInput("'" + id + "' is not attached");
   const PoseWithFrames pose = newestPose();
-  const Eigen::Isometry3d X_WB = pose.body(bodyWithLink(*before, id)).X_WB;
+  const Eigen::Isometry3d X_WB = pose.bodies[bodyWithLink(*before, id)].X_WB;
   const Eigen::Isometry3d X_MM = lookup(held->workpiece->frame, pose.stamp).inverse() * X_WB * held->X_BM;
   const auto next = std::make_shared<const Parameters>(withoutPayload(*before, id));
-  tool_.exchange_tool(before, next, [&, restored = movedBy(X_MM, *held->workpiece, pose)] {
+  exchange_tool_(before, next, [&, restored = movedBy(X_MM, *held->workpiece, pose)] {
     dependencies_.workpieces.detach(restored);
     require(*next);
   });
@@ -122,7 +117,7 @@ std::string AttachService::detach(const std::string& id) {
 }
 
 PoseWithFrames AttachService::newestPose() const {
-  auto future = tool_.newest_pose();
+  auto future = newest_pose_();
   if (future.wait_for(kGuardTimeout) != std::future_status::ready) throw Error("the guard is busy: ask again");
   return future.get();
 }

@@ -8,38 +8,25 @@
 #include <memory>
 #include <string>
 
-#include "guard/workpiece_store.h"
-#include "ros/input/frames.h"
-#include "ros/parameters/parameters.h"
 #include "ros/service/limited_calls.h"
+#include "ros/service/service_dependencies.h"
 #include "ros/service/service_threads.h"
 #include "sweep_guard/guard/pose_with_frames.h"
-#include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {
-
-/// What AttachService asks of the guard's thread.
-struct ToolControls {
-  /// Returns the newest swept pose. The future throws sweep_guard_core::Error if there is none, or it is stale.
-  std::function<std::future<sweep_guard_core::PoseWithFrames>()> newest_pose;
-  /// See GuardThread::exchangeTool().
-  std::function<void(const std::shared_ptr<const Parameters>& before, const std::shared_ptr<const Parameters>& next,
-                     const std::function<void()>& change_store)>
-      exchange_tool;
-};
-
-struct AttachDependencies {
-  const LiveParameters& parameters;
-  const Frames& frames;
-  sweep_guard_core::WorkpieceStore& workpieces;
-  sweep_guard_core::WarningMonitor& monitor;
-};
 
 /// Serves `~attach`: a workpiece that the tool holds becomes part of the tool, and is given back. A call that finds 4 others waiting is answered BUSY.
 class AttachService {
  public:
-  AttachService(const ros::NodeHandle& private_node, ServiceThreads& threads, const AttachDependencies& dependencies,
-                ToolControls tool);
+  /// Returns the newest swept pose. The future throws sweep_guard_core::Error if there is none, or it is stale.
+  using NewestPose = std::function<std::future<sweep_guard_core::PoseWithFrames>()>;
+  /// See GuardThread::exchangeTool().
+  using ExchangeTool =
+      std::function<void(const std::shared_ptr<const Parameters>& before, const std::shared_ptr<const Parameters>& next,
+                         const std::function<void()>& change_store)>;
+
+  AttachService(const ros::NodeHandle& private_node, ServiceThreads& threads, const ServiceDependencies& dependencies,
+                NewestPose newest_pose, ExchangeTool exchange_tool);
 
  private:
   using Event = ros::ServiceEvent<sweep_guard::Attach::Request, sweep_guard::Attach::Response>;
@@ -52,8 +39,9 @@ class AttachService {
   Eigen::Isometry3d lookup(const std::string& frame, sweep_guard_core::Time stamp) const;
   void require(const Parameters& next) const;
 
-  const AttachDependencies dependencies_;
-  const ToolControls tool_;
+  const ServiceDependencies dependencies_;
+  const NewestPose newest_pose_;
+  const ExchangeTool exchange_tool_;
   LimitedCalls calls_;  // before the server, which uses it
   ros::ServiceServer server_;
 };

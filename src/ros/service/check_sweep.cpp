@@ -1,7 +1,6 @@
 #include "ros/service/check_sweep.h"
 
 #include <algorithm>
-#include <optional>
 #include <set>
 #include <tuple>
 
@@ -17,11 +16,6 @@ using sweep_guard_core::PathResult;
 
 constexpr size_t kMaxPoses = 1024;
 
-struct PathContact {
-  size_t segment;
-  std::optional<double> time_of_impact;  // in the segment
-};
-
 void checkPathOf(const CheckSweep::Request& request) {
   if (request.path.empty()) throw InvalidInput("path is empty: send at least one pose");
   if (request.path.size() > kMaxPoses) {
@@ -35,12 +29,12 @@ std::set<std::string> framesOf(const CheckSweep::Request& request) {
   return frames;
 }
 
-PathContact earlier(const std::optional<PathContact>& a, const PathContact& b) {
-  return a && std::tie(a->segment, a->time_of_impact) < std::tie(b.segment, b.time_of_impact) ? *a : b;
+bool meetsEarlier(const PathResult& a, const PathResult& b) {
+  return std::tie(a.first_contact, a.time_of_impact) < std::tie(b.first_contact, b.time_of_impact);
 }
 
 void fill(CheckSweep::Response& response, const PathQuestion& question, const std::vector<PathResult>& results) {
-  std::optional<PathContact> first;
+  const PathResult* first = nullptr;
   for (size_t i = 0; i < results.size(); ++i) {
     const PathResult& result = results[i];
     response.margin = std::max(response.margin, result.all.margin);
@@ -48,44 +42,16 @@ void fill(CheckSweep::Response& response, const PathQuestion& question, const st
       response.objects.push_back(toMsg(*question.paths[i].workpiece, result.all, *question.parameters->tool));
     if (!result.all.allowed.triangles.empty())
       response.allowed.push_back(allowedMsg(*question.paths[i].workpiece, result.all, *question.parameters->tool));
-    if (result.first_contact) first = earlier(first, {*result.first_contact, result.time_of_impact});
+    if (result.first_contact && (first == nullptr || meetsEarlier(result, *first))) first = &result;
   }
-  response.collision = first.has_value();
-  if (!first) return;
-  response.segment = static_cast<std::uint32_t>(first->segment);
+  response.collision = first != nullptr;
+  if (!response.collision) return;
+  response.segment = static_cast<std::uint32_t>(*first->first_contact);
   if (first->time_of_impact) response.time_of_impact = *first->time_of_impact;
 }
 
-}  // namespace
-
-CheckSweepService::CheckSweepService(const ros::NodeHandle& private_node, ServiceThreads& threads, PathTests& tests)
-    : tests_(tests),
-      calls_(threads.lasting, threads.refusals),
-      server_(calls_.advertise<ros::ServiceSpec<CheckSweep::Request, CheckSweep::Response>>(
-          private_node, "check_sweep", tests.parameters().initial().max_message_size,
-          [this](auto& request, auto& response) { return answerPath(response, [&] { check(request, response); }); },
-          refusePath<CheckSweep::Response>)) {}
-
-void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Response& response) {
-  checkPathOf(request);
-  const auto question =
-      tests_.question({request.volume, request.detector, request.margin, request.fine != 0}, calls_.arrival());
-  // Before the snapshot is taken: what is accepted later does not better it.
-  const std::string doubts_before = tests_.meshProblems(request.mesh_ids);
-  for (const auto& workpiece : tests_.selected(*question, request.mesh_ids)) {
-    question->paths.push_back(
-        {workpiece, question->parameters->tool, pathIn(workpiece->frame, request.path, question->go_on), {}});
-  }
-  fill(response, *question, tests_.test(question));
-  response.message =
-      doubts_before.empty() ? tests_.doubts(*question, request.mesh_ids, framesOf(request)) : doubts_before;
-  response.clear = !response.collision && response.message.empty();
-  addRemarks(*question, response.message);
-}
-
-std::vector<Eigen::Isometry3d> CheckSweepService::pathIn(const std::string& mesh_frame,
-                                                         const std::vector<geometry_msgs::PoseStamped>& path,
-                                                         const GoOn& go_on) const {
+std::vector<Eigen::Isometry3d> pathIn(const PathTests& tests, const std::string& mesh_frame,
+                                      const std::vector<geometry_msgs::PoseStamped>& path, const GoOn& go_on) {
   std::vector<Eigen::Isometry3d> path_M;
   const std_msgs::Header* looked_up = nullptr;
   Eigen::Isometry3d X_MF;
@@ -94,7 +60,7 @@ std::vector<Eigen::Isometry3d> CheckSweepService::pathIn(const std::string& mesh
     const bool same = looked_up && looked_up->frame_id == header.frame_id && looked_up->stamp == header.stamp;
     if (!same) go_on("the transform of pose " + std::to_string(i));
     try {
-      if (!same) X_MF = tests_.transform(mesh_frame, header);
+      if (!same) X_MF = tests.transform(mesh_frame, header);
       looked_up = &header;
       path_M.push_back(X_MF * fromMsg(path[i].pose));
     } catch (const sweep_guard_core::Error& error) {
@@ -102,6 +68,25 @@ std::vector<Eigen::Isometry3d> CheckSweepService::pathIn(const std::string& mesh
     }
   }
   return path_M;
+}
+
+}  // namespace
+
+void checkSweep(PathTests& tests, sweep_guard_core::SteadyTime arrival, const CheckSweep::Request& request,
+                CheckSweep::Response& response) {
+  checkPathOf(request);
+  const auto question = tests.question(request.volume, request.detector, request.margin, request.fine != 0, arrival);
+  // Before the snapshot is taken: what is accepted later does not better it.
+  const std::string doubts_before = tests.meshProblems(request.mesh_ids);
+  for (const auto& workpiece : tests.selected(*question, request.mesh_ids)) {
+    question->paths.push_back(
+        {workpiece, question->parameters->tool, pathIn(tests, workpiece->frame, request.path, question->go_on), {}});
+  }
+  fill(response, *question, tests.test(question));
+  response.message =
+      doubts_before.empty() ? tests.doubts(*question, request.mesh_ids, framesOf(request)) : doubts_before;
+  response.clear = !response.collision && response.message.empty();
+  addRemarks(*question, response.message);
 }
 
 }  // namespace sweep_guard_ros

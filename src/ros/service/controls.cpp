@@ -2,6 +2,7 @@
 
 #include <ros/console.h>
 
+#include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/ros/conversions.h"
 
@@ -22,12 +23,8 @@ Controls::Controls(const ros::NodeHandle& private_node, const LiveParameters& pa
 template <typename Event>
 ros::ServiceServer Controls::advertise(const ros::NodeHandle& node, const std::string& name,
                                        bool (Controls::*on_call)(Event&)) {
-  return calls_.advertise<Event>(
-      node, name, kMaxRequest, [this, on_call](Event& event) { return (this->*on_call)(event); },
-      [](const std::string& reason, auto& response) {
-        response.message = reason;
-        return true;
-      });
+  return calls_.advertise<Event>(node, name, kMaxRequest,
+                                 [this, on_call](Event& event) { return (this->*on_call)(event); });
 }
 
 bool Controls::onEnable(EnableEvent& event) {
@@ -61,54 +58,38 @@ void Controls::disable(const std::string& asked_by, std_srvs::SetBool::Response&
 }
 
 bool Controls::onAcknowledge(AcknowledgeEvent& event) {
-  const std::string id = event.getRequest().mesh_id;
-  const std::string caller = sweep_guard_core::printable(event.getCallerName());
-  if (id.empty() || sweep_guard_core::isName(id)) {
-    acknowledge(id, event.getResponse());
-  } else {
-    event.getResponse().message = "mesh_id is no name";
-  }
-  ROS_INFO("~acknowledge called by %s: %s", caller.c_str(), event.getResponse().message.c_str());
-  return true;
-}
-
-void Controls::acknowledge(const std::string& id, sweep_guard::Acknowledge::Response& response) {
-  try {
+  sweep_guard::Acknowledge::Response& response = event.getResponse();
+  answerWith(response, [&] {
+    const std::string& id = event.getRequest().mesh_id;
+    if (!id.empty() && !sweep_guard_core::isName(id)) throw sweep_guard_core::InvalidInput("mesh_id is no name");
     response.mesh_id = guard_.acknowledge(id);
-    response.success = true;
     response.until = toMsg(now().stamp + parameters_.get()->limits.acknowledge_time);
-    response.message = "the warning of '" + response.mesh_id + "' is acknowledged; it stays as it is";
-  } catch (const std::exception& error) {
-    response.message = error.what();
-  }
+    return "the warning of '" + response.mesh_id + "' is acknowledged; it stays as it is";
+  });
+  ROS_INFO("~acknowledge called by %s: %s", sweep_guard_core::printable(event.getCallerName()).c_str(),
+           response.message.c_str());
+  return true;
 }
 
 bool Controls::onReset(ResetEvent& event) {
   std_srvs::Trigger::Response& response = event.getResponse();
-  try {
+  answerWith(response, [this] {
     guard_.reset();
-    response.success = true;
-    response.message =
-        "reset: tool poses, sweeps, the prediction and its training, held warnings, faults, and the counters of the "
-        "diagnostics. Kept: workpieces (" +
-        std::to_string(workpieces_.snapshot().size()) + "), parameters, level counts of the warning";
-    if (monitor_.disabledBy()) response.message += "; the guard stays disabled";
-  } catch (const std::exception& error) {
-    response.message = error.what();
-  }
+    return "reset: tool poses, sweeps, the prediction and its training, held warnings, faults, and the counters of the "
+           "diagnostics. Kept: workpieces (" +
+           std::to_string(workpieces_.snapshot().size()) + "), parameters, level counts of the warning" +
+           (monitor_.disabledBy() ? "; the guard stays disabled" : "");
+  });
   ROS_WARN("~reset called: %s", response.message.c_str());
   return true;
 }
 
 bool Controls::onResetTouches(ResetEvent& event) {
   std_srvs::Trigger::Response& response = event.getResponse();
-  try {
+  answerWith(response, [this] {
     guard_.reset_touches();
-    response.success = true;
-    response.message = "the counts of ~touches begin anew";
-  } catch (const std::exception& error) {
-    response.message = error.what();
-  }
+    return "the counts of ~touches begin anew";
+  });
   ROS_INFO("~reset_touches called by %s: %s", sweep_guard_core::printable(event.getCallerName()).c_str(),
            response.message.c_str());
   return true;

@@ -39,7 +39,6 @@ class Controls {
 
   bool onEnable(EnableEvent& event);
   bool onAcknowledge(AcknowledgeEvent& event);
-  void acknowledge(const std::string& id, sweep_guard::Acknowledge::Response& response);
   bool onReset(ResetEvent& event);
   bool onResetTouches(ResetEvent& event);
   template <typename Event>

@@ -53,8 +53,9 @@ std::string summaryOf(const sweep_guard_core::Intentions& intentions) {
 }  // namespace
 
 IntendService::IntendService(const ros::NodeHandle& private_node, ServiceThreads& threads,
-                             const IntendDependencies& dependencies)
+                             const ServiceDependencies& dependencies, sweep_guard_core::IntentionStore& intentions)
     : dependencies_(dependencies),
+      intentions_(intentions),
       publisher_(ros::NodeHandle(private_node).advertise<sweep_guard::Intended>("intended", 1, /*latch=*/true)),
       calls_(threads.brief, threads.refusals),
       updates_(subscribeBounded<sweep_guard::Intend>(
@@ -62,26 +63,17 @@ IntendService::IntendService(const ros::NodeHandle& private_node, ServiceThreads
           {"intend_updates", kQueueLength, dependencies.parameters.initial().max_message_size},
           [this](const ros::MessageEvent<const sweep_guard::Intend>& event) { onUpdate(*event.getConstMessage()); },
           [this](const std::string& reason) { refuseUpdate(reason); })),
-      server_(calls_.advertise<Event>(
-          private_node, "intend", dependencies.parameters.initial().max_message_size,
-          [this](Event& event) { return onCall(event); },
-          [](const std::string& reason, sweep_guard::SetIntent::Response& response) {
-            response.message = reason;
-            return true;
-          })) {
+      server_(calls_.advertise<Event>(private_node, "intend", dependencies.parameters.initial().max_message_size,
+                                      [this](Event& event) { return onCall(event); })) {
   publish({}, /*only_if_changed=*/false);
 }
 
-// Answers errors by a message: a failed ROS call gives the caller none.
 bool IntendService::onCall(Event& event) {
   sweep_guard::SetIntent::Response& response = event.getResponse();
-  try {
+  answerWith(response, [&] {
     set(event.getRequest().intends);
-    response.success = true;
-    response.message = summaryOf(*dependencies_.intentions.at(std::chrono::steady_clock::now()));
-  } catch (const std::exception& error) {
-    response.message = error.what();
-  }
+    return summaryOf(*intentions_.at(std::chrono::steady_clock::now()));
+  });
   ROS_INFO("~intend called by %s: %s", sweep_guard_core::printable(event.getCallerName()).c_str(),
            response.message.c_str());
   publishIfChanged();
@@ -106,7 +98,7 @@ void IntendService::set(const std::vector<sweep_guard::Intend>& intends) {
   if (intends.size() > sweep_guard_core::kMaxIntentions) throw InvalidInput("send at most 64 regions at once");
   std::vector<sweep_guard_core::IntentionRequest> requests;
   for (const sweep_guard::Intend& intend : intends) requests.push_back(requestFrom(intend));
-  dependencies_.intentions.set(requests, std::chrono::steady_clock::now());
+  intentions_.set(requests, std::chrono::steady_clock::now());
 }
 
 sweep_guard_core::IntentionRequest IntendService::requestFrom(const sweep_guard::Intend& intend) const {
@@ -146,7 +138,7 @@ void IntendService::checkLinks(const sweep_guard::Intend& intend) const {
 
 void IntendService::publishIfChanged() {
   const sweep_guard_core::Lock lock(mutex_);
-  const auto intentions = dependencies_.intentions.at(std::chrono::steady_clock::now());
+  const auto intentions = intentions_.at(std::chrono::steady_clock::now());
   if (intentions == published_) return;
   published_ = intentions;
   sweep_guard::Intended msg = intendedMsg(*intentions, dependencies_.workpieces.snapshot());

@@ -9,30 +9,22 @@
 #include <string>
 #include <vector>
 
+#include "common/guarded_by.h"
 #include "guard/intention_store.h"
-#include "guard/workpiece_store.h"
 #include "ros/connection/bounded.h"
-#include "ros/input/frames.h"
-#include "ros/parameters/parameters.h"
 #include "ros/process/log_throttle.h"
 #include "ros/service/limited_calls.h"
+#include "ros/service/service_dependencies.h"
 #include "ros/service/service_threads.h"
-#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
-
-struct IntendDependencies {
-  const LiveParameters& parameters;
-  const Frames& frames;
-  const sweep_guard_core::WorkpieceStore& workpieces;
-  sweep_guard_core::IntentionStore& intentions;
-};
 
 /// Serves `~intend` and takes `~intend_updates`: where the tool is meant to touch. Publishes `~intended`, latched. A call
 /// that finds 4 others waiting is answered BUSY.
 class IntendService {
  public:
-  IntendService(const ros::NodeHandle& private_node, ServiceThreads& threads, const IntendDependencies& dependencies);
+  IntendService(const ros::NodeHandle& private_node, ServiceThreads& threads, const ServiceDependencies& dependencies,
+                sweep_guard_core::IntentionStore& intentions);
 
   void publishIfChanged();  ///< publishes `~intended` if it has changed, by itself too. Any thread
 
@@ -48,7 +40,8 @@ class IntendService {
   void checkLinks(const sweep_guard::Intend& intend) const;
   void publish(const std::string& refusal, bool only_if_changed);
 
-  const IntendDependencies dependencies_;
+  const ServiceDependencies dependencies_;
+  sweep_guard_core::IntentionStore& intentions_;
   sweep_guard_core::Mutex mutex_;
   std::shared_ptr<const sweep_guard_core::Intentions> published_ GUARDED_BY(mutex_);
   std::string refusal_ GUARDED_BY(mutex_);  // of the newest update

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <exception>
 #include <memory>
 #include <string>
 #include <utility>
@@ -43,6 +44,16 @@ class LimitedCalls : public ros::CallbackQueueInterface {
                                   [this] { throwIfBusy(); });
   }
 
+  /// Does the same for a service whose response has a message: it answers by the reason.
+  template <typename Spec>
+  ros::ServiceServer advertise(const ros::NodeHandle& node, const std::string& name, size_t max_size,
+                               typename BoundedCalls<Spec>::Base::Callback callback) {
+    return advertise<Spec>(node, name, max_size, std::move(callback), [](const std::string& reason, auto& response) {
+      response.message = reason;
+      return true;
+    });
+  }
+
   /// Throws sweep_guard_core::Error in a call that found no room.
   void throwIfBusy() const;
   /// Returns when the running call came: it may have waited since. Only in a call that found room.
@@ -62,5 +73,17 @@ class LimitedCalls : public ros::CallbackQueueInterface {
   QueueThread& refusals_;
   const std::shared_ptr<State> state_ = std::make_shared<State>();
 };
+
+/// Fills the response of a call. Errors are answered by a message: a failed ROS call gives the caller none.
+/// @param serve  returns the message; may throw
+template <typename Response, typename Serve>
+void answerWith(Response& response, const Serve& serve) {
+  try {
+    response.message = serve();
+    response.success = true;
+  } catch (const std::exception& error) {
+    response.message = error.what();
+  }
+}
 
 }  // namespace sweep_guard_ros

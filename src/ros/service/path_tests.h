@@ -1,49 +1,64 @@
 #pragma once
 
+#include <ros/service_server.h>
+
 #include <atomic>
 #include <chrono>
 #include <exception>
+#include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "guard/workpiece_store.h"
-#include "ros/input/frames.h"
-#include "ros/parameters/parameters.h"
 #include "ros/process/process.h"
-#include "ros/service/path_tester.h"
+#include "ros/service/limited_calls.h"
+#include "ros/service/service_dependencies.h"
+#include "ros/service/service_threads.h"
 #include "ros/threads/background_thread.h"
+#include "sweep_guard/detection/detector.h"
 #include "sweep_guard/guard/frame_motion.h"
-#include "sweep_guard/monitor/warning_monitor.h"
+#include "sweep_guard/guard/sweep.h"
+#include "sweep_guard/guard/workpiece.h"
 
 namespace sweep_guard_ros {
 
-struct PathTestDependencies {
-  const LiveParameters& parameters;
-  const Frames& frames;
-  const sweep_guard_core::WorkpieceStore& workpieces;
-  const sweep_guard_core::WarningMonitor& monitor;
-  const sweep_guard_core::FrameMotionStore* frame_motions = nullptr;  ///< of frames that tf does not have
-  MakeDetector make_detector = sweep_guard_core::makeDetector;
+/// Makes a detector by its name.
+using MakeDetector = std::function<std::unique_ptr<sweep_guard_core::Detector>(
+    const std::string& name, const sweep_guard_core::DetectorOptions& options)>;
+
+/// Throws once a test is to end. What has been tested by then is no answer.
+using GoOn = std::function<void(const std::string& where)>;
+
+/// What a caller asks about.
+struct PathQuestion {
+  struct Path {
+    std::shared_ptr<const sweep_guard_core::Workpiece> workpiece;
+    std::shared_ptr<const sweep_guard_core::Tool> tool;
+    std::vector<Eigen::Isometry3d> path_M;  ///< of the tool's frame
+    std::vector<double> deviation_bounds;   ///< as in PathRequest
+  };
+
+  std::shared_ptr<const Parameters> parameters;
+  std::string detector;  ///< its name
+  sweep_guard_core::SweepOptions options;
+  std::vector<Path> paths;
+  sweep_guard_core::SteadyTime arrival;  ///< of the call
+  GoOn go_on;
 };
 
-/// What a service asks about, in the words of its request.
-struct PathRequestOptions {
-  const std::string& volume;    ///< empty: as configured
-  const std::string& detector;  ///< empty: as configured
-  double margin;                ///< [m]
-  bool fine;
-};
-
-/// Sweeps paths against the workpieces as they are now, for the services that ask. Has a thread and detectors of its own
-/// and works on a snapshot of the meshes, so it never delays the guard. A question is given up at its deadline, which
-/// counts from the arrival of the call.
+/// Sweeps paths against the workpieces as they are now, for the services that ask. Has a thread of its own, and detectors,
+/// each of which is tested when it is made. Works on a snapshot of the meshes, so it never delays the guard. A question is
+/// given up at its deadline, which counts from the arrival of the call.
 class PathTests {
  public:
-  explicit PathTests(const PathTestDependencies& dependencies)
-      : dependencies_(dependencies), tester_(dependencies.make_detector) {}
+  /// @param frame_motions  of frames that tf does not have; null: there are none
+  PathTests(const ServiceDependencies& dependencies, const sweep_guard_core::FrameMotionStore* frame_motions,
+            MakeDetector make_detector = sweep_guard_core::makeDetector)
+      : dependencies_(dependencies), frame_motions_(frame_motions), make_detector_(std::move(make_detector)) {}
   PathTests(const PathTests&) = delete;
   PathTests& operator=(const PathTests&) = delete;
 
@@ -52,9 +67,12 @@ class PathTests {
   const LiveParameters& parameters() const { return dependencies_.parameters; }
 
   /// Begins a question.
-  /// @param arrival  of the call
+  /// @param volume, detector  names; empty: as configured
+  /// @param margin            [m]
+  /// @param arrival           of the call
   /// @throws sweep_guard_core::InvalidInput if an option is out of range
-  std::shared_ptr<PathQuestion> question(const PathRequestOptions& options, sweep_guard_core::SteadyTime arrival) const;
+  std::shared_ptr<PathQuestion> question(const std::string& volume, const std::string& detector, double margin,
+                                         bool fine, sweep_guard_core::SteadyTime arrival) const;
 
   /// Returns the workpieces with these ids; all, if there are none.
   /// @throws sweep_guard_core::InvalidInput if one does not exist, or there is no workpiece at all
@@ -65,8 +83,9 @@ class PathTests {
   /// @throws sweep_guard_core::Error if there is none
   Eigen::Isometry3d transform(const std::string& mesh_frame, const std_msgs::Header& header) const;
 
-  /// Returns the results in the order of the paths.
-  /// @throws sweep_guard_core::Error as PathTester, or if it takes longer than the deadline
+  /// Returns what each tool meets along its path, in the order of the paths.
+  /// @throws sweep_guard_core::Error if the detector fails or failed its self-test, or if it takes longer than the
+  ///     deadline
   std::vector<sweep_guard_core::PathResult> test(const std::shared_ptr<const PathQuestion>& question);
 
   /// Returns what is wrong with these workpieces, all if there are no ids; empty: nothing.
@@ -81,8 +100,16 @@ class PathTests {
   std::string oldTransforms(const PathQuestion& question, const std::set<std::string>& frames) const;
   GoOn untilDeadline(sweep_guard_core::Duration deadline, sweep_guard_core::SteadyTime arrival) const;
 
-  const PathTestDependencies dependencies_;
-  PathTester tester_;
+  std::vector<sweep_guard_core::PathResult> sweep(const PathQuestion& question);
+  void setParameters(const std::shared_ptr<const Parameters>& current);
+  sweep_guard_core::Detector& detector(const std::string& name);
+
+  const ServiceDependencies dependencies_;
+  const sweep_guard_core::FrameMotionStore* const frame_motions_;
+  const MakeDetector make_detector_;
+  // Of the thread that sweeps:
+  std::shared_ptr<const Parameters> parameters_;                                  // of the newest call
+  std::map<std::string, std::unique_ptr<sweep_guard_core::Detector>> detectors_;  // by name, made on demand
   std::atomic<bool> stopping_ = false;
   BackgroundThread sweeps_{[] { setNice(10); }};
 };
@@ -115,5 +142,27 @@ bool answerPath(Response& response, Check check) {
   response.compute_time = ros::Duration(sweep_guard_core::toSeconds(std::chrono::steady_clock::now() - begin));
   return true;
 }
+
+/// Serves path tests. A call that finds 4 others waiting is answered BUSY at once. A call waits and runs for no longer than
+/// its deadline.
+class PathService {
+ public:
+  /// @param tests  must outlive it
+  /// @param check  as for answerPath()
+  template <typename Request, typename Response>
+  PathService(const ros::NodeHandle& private_node, const std::string& name, ServiceThreads& threads, PathTests& tests,
+              void (*check)(PathTests&, sweep_guard_core::SteadyTime arrival, const Request&, Response&))
+      : calls_(threads.lasting, threads.refusals),
+        server_(calls_.advertise<ros::ServiceSpec<Request, Response>>(
+            private_node, name, tests.parameters().initial().max_message_size,
+            [this, &tests, check](Request& request, Response& response) {
+              return answerPath(response, [&] { check(tests, calls_.arrival(), request, response); });
+            },
+            refusePath<Response>)) {}
+
+ private:
+  LimitedCalls calls_;  // before the server, which uses it
+  ros::ServiceServer server_;
+};
 
 }  // namespace sweep_guard_ros

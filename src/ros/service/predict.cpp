@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/number_text.h"
 #include "ros/guard/detector_test.h"
 #include "ros/service/left_out.h"
 #include "sweep_guard/common/error.h"
@@ -30,7 +31,7 @@ Duration checkedHorizon(const ros::Duration& horizon, Duration configured) {
   const Duration asked(horizon.toNSec());
   if (asked == Duration::zero()) return configured;
   if (asked < Duration::zero() || asked > kMaxHorizon) {
-    throw sweep_guard_core::InvalidInput("horizon is " + std::to_string(horizon.toSec()) +
+    throw sweep_guard_core::InvalidInput("horizon is " + sweep_guard_core::shortText(horizon.toSec()) +
                                          " s, but must be from 0 (as configured) to 5 s");
   }
   return asked;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "ros/connection/sole_publisher.h"
 #include "ros/merger/heard_warning.h"
+#include "ros/motion/absent_guard.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
 
@@ -12,14 +12,12 @@ namespace sweep_guard_ros {
 namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
-using sweep_guard_core::InvalidInput;
 
 constexpr std::uint32_t kRate = 48000;  // samples per second
 constexpr auto kTickPeriod = std::chrono::milliseconds(10);
 constexpr auto kAhead = std::chrono::milliseconds(40);  // of the sound
 constexpr auto kStartPeriod = std::chrono::seconds(2);
 constexpr auto kReportPeriod = std::chrono::seconds(1);
-constexpr size_t kMaxMessageSize = 64 << 20;
 
 std::vector<std::string> readCommand(ParameterReader& read) {
   std::vector<std::string> command = read.texts("player");
@@ -47,21 +45,11 @@ EarconNode::EarconNode(const ros::NodeHandle& node, const ros::NodeHandle& priva
   settings_ = read.settings();
   updater_.setHardwareID("none");
   updater_.add("sound", [this](Status& status) { report(status); });
-  const auto refuse = [this, topic = warning_.guards().front()](const std::string& reason) {
-    log_.error("refused", "message on " + topic + " refused: " + reason);
-  };
-  using Event = ros::MessageEvent<const sweep_guard::Warning>;
-  subscriber_ = subscribeBounded<sweep_guard::Warning>(
-      thread_.on(node), {"warning", 10, kMaxMessageSize},
-      [this, refuse, sole = SolePublisher(sweep_guard_core::WarningMerger::kValid)](const Event& event) mutable {
-        try {
-          if (!sole.alone(event.getPublisherName(), now().steady)) throw InvalidInput("several nodes publish it");
-          hear(*event.getConstMessage());
-        } catch (const InvalidInput& error) {
-          refuse(error.what());
-        }
-      },
-      refuse);
+  subscriber_ = subscribeToWarning(
+      thread_.on(node), "warning", [this](const sweep_guard::Warning& message) { hear(message); },
+      [this, topic = warning_.guards().front()](const std::string& reason) {
+        log_.error("refused", "message on " + topic + " refused: " + reason);
+      });
   sound_.every(kTickPeriod, [this] { sound(); });
   reports_.every(kReportPeriod, [this] { updater_.force_update(); });
 }
@@ -86,15 +74,13 @@ void EarconNode::hear(const sweep_guard::Warning& message) {
   warning_.hear(0, std::move(warning));
 }
 
-sweep_guard_core::SoundCue EarconNode::cue() const {
-  const sweep_guard_core::Lock lock(mutex_);
-  const sweep_guard_core::MergedWarning warning = warning_.merged(now());
-  return {warning.level, warning.time_to_collision, warning.acknowledged};
-}
-
 // A player that has ended is started again: a sound card may come back.
 void EarconNode::sound() {
-  const sweep_guard_core::SoundCue heard = cue();
+  sweep_guard_core::HeardWarning heard;
+  {
+    const sweep_guard_core::Lock lock(mutex_);
+    heard = warning_.merged(now());
+  }
   std::string problem;
   try {
     play(heard);
@@ -108,7 +94,7 @@ void EarconNode::sound() {
   if (player_ || !problem.empty()) problem_ = problem;
 }
 
-void EarconNode::play(const sweep_guard_core::SoundCue& cue) {
+void EarconNode::play(const sweep_guard_core::HeardWarning& warning) {
   const sweep_guard_core::SteadyTime at = std::chrono::steady_clock::now();
   if (!player_) {
     if (at < next_start_) return;
@@ -118,7 +104,7 @@ void EarconNode::play(const sweep_guard_core::SoundCue& cue) {
     played_until_ = at;
   }
   played_until_ = std::max(played_until_, at);
-  sweep_guard_core::Earcon earcon = earconOf(cue, clear_tick_);
+  sweep_guard_core::Earcon earcon = earconOf(warning, clear_tick_);
   earcon.amplitude *= volume_;
   const double missing = sweep_guard_core::toSeconds(at + kAhead - played_until_);
   if (samples_.empty() && missing > 0.0) {
@@ -132,7 +118,9 @@ void EarconNode::play(const sweep_guard_core::SoundCue& cue) {
 
 void EarconNode::report(Status& status) const {
   const sweep_guard_core::Lock lock(mutex_);
-  const std::string silence = warning_.silence(0, now());
+  std::string silence = warning_.silence(0, now());
+  const bool absent = !silence.empty() && subscriber_.getNumPublishers() == 0;
+  if (absent) silence = absentWarningText(warning_.guards().front());
   status.summary(silence.empty() ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
                  silence.empty() ? styleOf(sounds_).name : silence);
   if (!problem_.empty()) status.mergeSummary(DiagnosticStatus::ERROR, "no sound: " + problem_);

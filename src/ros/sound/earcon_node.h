@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "common/guarded_by.h"
 #include "monitor/warning_merger.h"
 #include "ros/connection/bounded.h"
 #include "ros/connection/master_watch.h"
@@ -17,7 +18,6 @@
 #include "ros/threads/queue_thread.h"
 #include "ros/threads/timer_thread.h"
 #include "sound/earcon.h"
-#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/ros/parameters/parameter_reader.h"
 
 namespace sweep_guard_ros {
@@ -41,8 +41,7 @@ class EarconNode {
 
   void hear(const sweep_guard::Warning& message);
   void sound();
-  void play(const sweep_guard_core::SoundCue& cue);
-  sweep_guard_core::SoundCue cue() const;
+  void play(const sweep_guard_core::HeardWarning& warning);
   void report(Status& status) const;
 
   // Members use only earlier members.

@@ -7,8 +7,8 @@
 #include <thread>
 #include <utility>
 
+#include "common/guarded_by.h"
 #include "ros/threads/supervisor.h"
-#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 

@@ -41,23 +41,23 @@ class QueueThread::Work : public ros::CallbackInterface {
   const ros::CallbackInterfacePtr callback_;
 };
 
-void QueueThread::Queue::addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t owner) {
-  CallbackQueue::addCallback(boost::make_shared<Work>(thread_, callback), owner);
+void QueueThread::addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t owner) {
+  CallbackQueue::addCallback(boost::make_shared<Work>(*this, callback), owner);
 }
 
 void QueueThread::stop() {
   stopping_ = true;
-  queue_.disable();
+  disable();
   if (thread_.joinable()) thread_.join();
 }
 
 ros::NodeHandle QueueThread::on(ros::NodeHandle node) {
-  node.setCallbackQueue(&queue_);
+  node.setCallbackQueue(this);
   return node;
 }
 
 void QueueThread::post(std::function<void()> work) {
-  queue_.addCallback(boost::make_shared<Posted>(std::move(work)), /*owner=*/0);
+  addCallback(boost::make_shared<Posted>(std::move(work)), /*owner=*/0);
 }
 
 void QueueThread::start(Supervisor& supervisor, const ThreadTraits& traits) {
@@ -68,7 +68,7 @@ void QueueThread::start(Supervisor& supervisor, const ThreadTraits& traits) {
 void QueueThread::run() {
   id_ = std::this_thread::get_id();
   top_->enter();
-  while (!stopping_ && !ros::isShuttingDown()) top_->attempt([this] { queue_.callOne(kWait); });
+  while (!stopping_ && !ros::isShuttingDown()) top_->attempt([this] { callOne(kWait); });
 }
 
 }  // namespace sweep_guard_ros

@@ -14,7 +14,7 @@ namespace sweep_guard_ros {
 /// Runs the callbacks of one queue in one thread, so that no input waits for another. Callbacks wait until start().
 /// Subscribers and services made from it must be destroyed first; what their callbacks use, after stop() or later: roscpp
 /// does not wait for a callback that runs.
-class QueueThread {
+class QueueThread : private ros::CallbackQueue {
  public:
   QueueThread() = default;
   ~QueueThread() { stop(); }
@@ -24,7 +24,7 @@ class QueueThread {
   /// Returns a node handle whose callbacks run in this thread.
   ros::NodeHandle on(ros::NodeHandle node);
 
-  ros::CallbackQueue& queue() { return queue_; }
+  ros::CallbackQueue& queue() { return *this; }
   /// Queues work between the callbacks. Any thread.
   void post(std::function<void()> work);
   /// Starts the thread; the supervisor must outlive it.
@@ -34,20 +34,12 @@ class QueueThread {
   bool isCurrent() const { return id_ == std::this_thread::get_id(); }
 
  private:
-  // Runs each callback as a piece of work of the thread's top.
-  class Queue : public ros::CallbackQueue {
-   public:
-    explicit Queue(const QueueThread& thread) : thread_(thread) {}
-    void addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t owner) override;
-
-   private:
-    const QueueThread& thread_;
-  };
   class Work;
 
+  // Runs each callback as a piece of work of the thread's top.
+  void addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t owner) override;
   void run();
 
-  Queue queue_{*this};
   ThreadTop* top_ = nullptr;  // from start() on
   std::atomic<std::thread::id> id_;
   std::atomic<bool> stopping_ = false;

@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "sweep_guard/common/mutex.h"
+#include "common/guarded_by.h"
 
 namespace sweep_guard_ros {
 

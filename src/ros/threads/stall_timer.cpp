@@ -7,17 +7,16 @@ namespace sweep_guard_ros {
 namespace {
 
 using sweep_guard_core::Duration;
-using sweep_guard_core::Heartbeat;
 
 constexpr Duration kLongestStep = std::chrono::milliseconds(20);  // twice the period of the checks
 
 }  // namespace
 
-void StallTimer::check(const Heartbeat::Reading& heart, const ThreadState& state, Duration since_last, bool starving) {
+void StallTimer::check(const std::optional<std::uint64_t>& steps, const ThreadState& state, Duration since_last,
+                       bool starving) {
   const Duration used = state.processor_time - std::exchange(processor_time_, state.processor_time);
-  const bool same = heart.working && working_ && heart.steps == steps_;
-  steps_ = heart.steps;
-  working_ = heart.working;
+  const bool same = steps && steps == steps_;
+  steps_ = steps;
   if (!same) {
     stalled_ = Duration::zero();
     return;
@@ -26,8 +25,8 @@ void StallTimer::check(const Heartbeat::Reading& heart, const ThreadState& state
   stalled_ += blocked ? std::max(used, std::min(since_last, kLongestStep)) : used;
 }
 
-bool StallTimer::starves(const Heartbeat::Reading& heart, const ThreadState& state) const {
-  return heart.working && state.activity == ThreadState::Activity::kRunnable && state.processor_time == processor_time_;
+bool StallTimer::starves(const std::optional<std::uint64_t>& steps, const ThreadState& state) const {
+  return steps && state.activity == ThreadState::Activity::kRunnable && state.processor_time == processor_time_;
 }
 
 }  // namespace sweep_guard_ros

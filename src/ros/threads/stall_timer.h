@@ -1,6 +1,8 @@
 #pragma once
 
-#include "common/heartbeat.h"
+#include <cstdint>
+#include <optional>
+
 #include "sweep_guard/common/time.h"
 
 namespace sweep_guard_ros {
@@ -21,18 +23,18 @@ struct ThreadState {
 /// stall.
 class StallTimer {
  public:
+  /// @param steps       of the thread; empty: it has no work
   /// @param since_last  time since the last check; what exceeds 20 ms counts as a stop of the checking thread
   /// @param starving    another thread waits for a processor: this one may be blocked by it
-  void check(const sweep_guard_core::Heartbeat::Reading& heart, const ThreadState& state,
-             sweep_guard_core::Duration since_last, bool starving);
+  void check(const std::optional<std::uint64_t>& steps, const ThreadState& state, sweep_guard_core::Duration since_last,
+             bool starving);
   /// Returns whether the thread waits for a processor since the last check.
-  bool starves(const sweep_guard_core::Heartbeat::Reading& heart, const ThreadState& state) const;
+  bool starves(const std::optional<std::uint64_t>& steps, const ThreadState& state) const;
 
   sweep_guard_core::Duration stalled() const { return stalled_; }  ///< 0: it has made a step, or has no work
 
  private:
-  std::uint64_t steps_ = 0;  // as of the last check, like those below
-  bool working_ = false;
+  std::optional<std::uint64_t> steps_;  // as of the last check, like those below
   sweep_guard_core::Duration processor_time_{};
   sweep_guard_core::Duration stalled_{};
 };

@@ -100,14 +100,14 @@ bool Supervisor::blames(const Watched& one, const Watched& other) {
 void Supervisor::check(Duration since_last) {
   bool starving = false;
   for (Watched& one : threads_) {
-    one.heart = one.top.heartbeat();
-    if (one.heart.working) one.state = one.top.thread()->state();
-    starving = (one.stall.starves(one.heart, one.state) && one.top.traits().watched) || starving;
+    one.steps = one.top.steps();
+    if (one.steps) one.state = one.top.thread()->state();
+    starving = (one.stall.starves(one.steps, one.state) && one.top.traits().watched) || starving;
   }
   const Watched* hung = nullptr;
   bool dead = false;
   for (Watched& one : threads_) {
-    one.stall.check(one.heart, one.state, since_last, starving);
+    one.stall.check(one.steps, one.state, since_last, starving);
     const Duration stalled = one.stall.stalled() - one.top.allowance();
     if (!one.top.traits().watched || stalled < kHung) continue;
     if (hung == nullptr || blames(one, *hung)) hung = &one;

@@ -6,10 +6,10 @@
 #include <functional>
 #include <thread>
 
+#include "common/guarded_by.h"
 #include "ros/process/log_throttle.h"
 #include "ros/threads/stall_timer.h"
 #include "ros/threads/thread_top.h"
-#include "sweep_guard/common/mutex.h"
 
 namespace sweep_guard_ros {
 
@@ -45,7 +45,7 @@ class Supervisor {
     Watched(Supervisor& supervisor, const ThreadTraits& thread) : top(supervisor, thread) {}
     ThreadTop top;
     StallTimer stall;
-    sweep_guard_core::Heartbeat::Reading heart{};  // newest, as the state
+    std::optional<std::uint64_t> steps;  // newest, as the state
     ThreadState state{};
   };
 

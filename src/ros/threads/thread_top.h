@@ -73,7 +73,7 @@ class ThreadTop {
   void caught() noexcept;
 
   const ThreadTraits& traits() const { return traits_; }
-  sweep_guard_core::Heartbeat::Reading heartbeat() const { return heartbeat_.read(); }
+  std::optional<std::uint64_t> steps() const { return heartbeat_.steps(); }  ///< as Heartbeat::steps()
   sweep_guard_core::StageTimes stageTimes() const { return stage_clock_.read(); }
   sweep_guard_core::Duration allowance() const { return allowance_; }
   const std::optional<KernelThread>& thread() const { return thread_; }  ///< after the first step

@@ -6,8 +6,8 @@
 #include <functional>
 #include <thread>
 
+#include "common/guarded_by.h"
 #include "ros/threads/supervisor.h"
-#include "sweep_guard/common/mutex.h"
 #include "sweep_guard/common/time.h"
 
 namespace sweep_guard_ros {

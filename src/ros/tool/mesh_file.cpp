@@ -20,6 +20,7 @@
 #include "ros/tool/mesh_answer.h"
 #include "ros/tool/mesh_wire.h"
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/common/printable.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -58,8 +59,8 @@ std::string formatOf(const path& file) {
 }
 
 // O_NONBLOCK: opening a pipe must not wait.
-Descriptor openMesh(const path& file, SymbolicLinks links) {
-  const int follow = links == SymbolicLinks::kFollow ? 0 : O_NOFOLLOW;
+Descriptor openMesh(const path& file, bool follow_link) {
+  const int follow = follow_link ? 0 : O_NOFOLLOW;
   Descriptor opened(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | follow));
   struct stat status {};
   if (opened.get() < 0 || fstat(opened.get(), &status) != 0) {
@@ -148,16 +149,14 @@ class Reader {
   pid_t process_ = 0;
 };
 
-std::string printable(std::string text) {
-  if (text.size() > kMaxReason) text.resize(kMaxReason);
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, ' ');
-  text.erase(text.find_last_not_of(" .") + 1);
+std::string plainReason(const std::string& answer) {
+  std::string text = sweep_guard_core::printable(answer, kMaxReason);
+  text.erase(text.find_last_not_of(" .?") + 1);
   return text;
 }
 
 std::string failureText(int status, const std::string& answer) {
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 1) return "cannot be read: " + printable(answer);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 1) return "cannot be read: " + plainReason(answer);
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) return "takes too long to read";
   if (WIFSIGNALED(status)) return "crashes mesh_reader (signal " + std::to_string(WTERMSIG(status)) + ")";
   return "cannot be read: mesh_reader ended with status " + std::to_string(WEXITSTATUS(status));
@@ -165,9 +164,9 @@ std::string failureText(int status, const std::string& answer) {
 
 }  // namespace
 
-MeshSurface readMesh(const path& file, SymbolicLinks links) {
+MeshSurface readMesh(const path& file, bool follow_link) {
   const std::string format = formatOf(file);
-  const Descriptor opened = openMesh(file, links);
+  const Descriptor opened = openMesh(file, follow_link);
   Reader reader(readerProgram(), format, opened);
   const std::optional<std::string> answer = reader.answer();
   const std::string remedy = "; export the mesh again";

@@ -1,4 +1,4 @@
-// Reads a mesh file for the guard in a separate process, because assimp crashes on some broken files.
+// Reads a mesh file for the guard in a separate process, because assimp crashes on some broken files. It reads OBJ and DAE.
 #include <assimp/config.h>
 #include <assimp/scene.h>
 #include <sys/prctl.h>
@@ -19,10 +19,12 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ros/tool/mesh_text.h"
 #include "ros/tool/mesh_wire.h"
+#include "ros/tool/stl_facets.h"
 
 namespace {
 
@@ -103,14 +105,13 @@ bool finite(const Point& point) {
   return true;
 }
 
+std::uint32_t addVertex(const Point& point, FileSurface& surface) {
+  if (!finite(point)) throw std::runtime_error("a vertex is NaN or infinite");
+  return surface.add(point);
+}
+
 // A fan covers a polygon, even a concave one. Points and edges become triangles without area.
-void addFace(const aiFace& face, const std::vector<std::uint32_t>& vertex, FileSurface& surface) {
-  if (face.mNumIndices == 0) return;
-  std::vector<std::uint32_t> corners;
-  for (unsigned i = 0; i < face.mNumIndices; ++i) {
-    if (face.mIndices[i] >= vertex.size()) throw std::runtime_error("a face names a missing vertex");
-    corners.push_back(vertex[face.mIndices[i]]);
-  }
+void addPolygon(std::vector<std::uint32_t> corners, FileSurface& surface) {
   ++surface.faces;
   if (corners.size() >= 3) ++surface.polygons;
   surface.solid = surface.solid || std::set<std::uint32_t>(corners.begin(), corners.end()).size() >= 3;
@@ -119,12 +120,20 @@ void addFace(const aiFace& face, const std::vector<std::uint32_t>& vertex, FileS
   if (surface.triangles.size() > kMaxMeshTriangles) throw std::runtime_error("more than a million triangles");
 }
 
+void addFace(const aiFace& face, const std::vector<std::uint32_t>& vertex, FileSurface& surface) {
+  if (face.mNumIndices == 0) return;
+  std::vector<std::uint32_t> corners;
+  for (unsigned i = 0; i < face.mNumIndices; ++i) {
+    if (face.mIndices[i] >= vertex.size()) throw std::runtime_error("a face names a missing vertex");
+    corners.push_back(vertex[face.mIndices[i]]);
+  }
+  addPolygon(std::move(corners), surface);
+}
+
 void addMesh(const aiMesh& mesh, const aiMatrix4x4& X, FileSurface& surface) {
   std::vector<std::uint32_t> vertex;
   for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-    const Point point = transformed(X, mesh.mVertices[i]);
-    if (!finite(point)) throw std::runtime_error("a vertex is NaN or infinite");
-    vertex.push_back(surface.add(point));
+    vertex.push_back(addVertex(transformed(X, mesh.mVertices[i]), surface));
   }
   for (unsigned i = 0; i < mesh.mNumFaces; ++i) addFace(mesh.mFaces[i], vertex, surface);
 }
@@ -161,9 +170,13 @@ class FirstError : public Assimp::LogStream {
   std::string& text_;
 };
 
-void requireComplete(const std::string& bytes, const std::string& format, const FileSurface& surface) {
+void requireSolid(const FileSurface& surface) {
   if (surface.polygons == 0) throw std::runtime_error("no triangles");
   if (!surface.solid) throw std::runtime_error("all triangles are points or lines");
+}
+
+void requireComplete(const std::string& bytes, const std::string& format, const FileSurface& surface) {
+  requireSolid(surface);
   const size_t expected = sweep_guard_ros::expectedFaces(bytes, format);
   if (surface.faces < expected) {
     throw std::runtime_error("only " + std::to_string(surface.faces) + " of " + std::to_string(expected) +
@@ -171,21 +184,27 @@ void requireComplete(const std::string& bytes, const std::string& format, const 
   }
 }
 
-// Removes assimp's log prefix, and its name for bytes in memory.
+// Removes assimp's log prefix.
 std::string plain(std::string text) {
-  for (const std::string& noise :
-       {std::string("Error, T0: "), std::string("Warn,  T0: "), std::string(" for $$$___magic___$$$.stl")}) {
+  for (const std::string& noise : {std::string("Error, T0: "), std::string("Warn,  T0: ")}) {
     const size_t at = text.find(noise);
     if (at != std::string::npos) text.erase(at, noise.size());
   }
   return text;
 }
 
-FileSurface read(std::string bytes, const std::string& format) {
-  if (bytes.empty()) throw std::runtime_error("file is empty");
-  if (bytes.compare(0, 19, "version https://git") == 0) {
-    throw std::runtime_error("file is a git-lfs pointer, not the mesh: run git lfs pull");
+FileSurface readStl(const std::string& bytes) {
+  FileSurface surface;
+  for (const sweep_guard_ros::StlFacet& facet : sweep_guard_ros::readStlFacets(bytes)) {
+    std::vector<std::uint32_t> corners;
+    for (const auto& [x, y, z] : facet) corners.push_back(addVertex({x, y, z}, surface));
+    addPolygon(std::move(corners), surface);
   }
+  requireSolid(surface);
+  return surface;
+}
+
+FileSurface readWithAssimp(std::string bytes, const std::string& format) {
   sweep_guard_ros::simplify(bytes, format);
   std::string error;
   Assimp::DefaultLogger::create(nullptr, Assimp::Logger::NORMAL, 0);
@@ -201,6 +220,14 @@ FileSurface read(std::string bytes, const std::string& format) {
   addNode(*scene, *scene->mRootNode, aiMatrix4x4(), 0, surface);
   requireComplete(bytes, format, surface);
   return surface;
+}
+
+FileSurface read(const std::string& bytes, const std::string& format) {
+  if (bytes.empty()) throw std::runtime_error("file is empty");
+  if (bytes.compare(0, 19, "version https://git") == 0) {
+    throw std::runtime_error("file is a git-lfs pointer, not the mesh: run git lfs pull");
+  }
+  return format == "stl" ? readStl(bytes) : readWithAssimp(bytes, format);
 }
 
 template <typename Value>

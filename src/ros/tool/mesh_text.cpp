@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <initializer_list>
 #include <stdexcept>
 #include <string_view>
@@ -45,13 +43,6 @@ size_t linesThatBeginWith(string_view keyword, string_view text) {
     if (nextWord(line) == keyword) ++count;
   });
   return count;
-}
-
-bool isBinaryStl(const std::string& bytes) {
-  std::uint32_t facets = 0;
-  if (bytes.size() < 84) return false;
-  std::memcpy(&facets, &bytes[80], sizeof facets);
-  return bytes.size() == 84 + 50 * std::uint64_t{facets};
 }
 
 char lowered(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
@@ -128,39 +119,37 @@ void requireCount(const XMLElement& faces) {
   }
 }
 
-class DaeCheck : public tinyxml2::XMLVisitor {
- public:
-  using XMLVisitor::VisitEnter;
-  bool VisitEnter(const XMLElement& element, const tinyxml2::XMLAttribute* /*first*/) override {
-    const string_view name = element.Name();
-    if (name == "unit") requireUnit(element);
-    if (name == "p") requireIndices(element);
+// Ends: tinyxml2 limits the depth of nested elements.
+void requireReadableBelow(const tinyxml2::XMLNode& parent) {
+  for (const XMLElement* element = parent.FirstChildElement(); element; element = element->NextSiblingElement()) {
+    const string_view name = element->Name();
+    if (name == "unit") requireUnit(*element);
+    if (name == "p") requireIndices(*element);
     if (isOneOf({"triangles", "polylist", "polygons", "lines", "linestrips", "trifans", "tristrips"}, name)) {
-      requireCount(element);
+      requireCount(*element);
     }
     if (isOneOf({"brep", "convex_mesh", "ph", "spline"}, name)) {
       throw std::runtime_error("<" + std::string(name) + "> is not supported");
     }
-    return true;
+    requireReadableBelow(*element);
   }
-};
+}
 
 void requireReadableDae(const std::string& text) {
   tinyxml2::XMLDocument document;
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     throw std::runtime_error(std::string("not XML: ") + document.ErrorStr());
   }
-  DaeCheck check;
-  document.Accept(&check);
+  requireReadableBelow(document);
 }
 
 }  // namespace
 
 void simplify(std::string& bytes, const std::string& format) {
-  if (format == "dae" || (format == "stl" && isBinaryStl(bytes))) return;
+  if (format != "obj") return;
   if (bytes.compare(0, kByteOrderMark.size(), kByteOrderMark) == 0) bytes.erase(0, kByteOrderMark.size());
   std::transform(bytes.begin(), bytes.end(), bytes.begin(), lowered);
-  if (format == "obj") blankMaterials(bytes);
+  blankMaterials(bytes);
 }
 
 void requireReadable(const std::string& bytes, const std::string& format) {
@@ -169,12 +158,7 @@ void requireReadable(const std::string& bytes, const std::string& format) {
 }
 
 std::size_t expectedFaces(const std::string& bytes, const std::string& format) {
-  if (format == "obj") return linesThatBeginWith("f", bytes);
-  if (format != "stl" || isBinaryStl(bytes)) return 0;
-  if (linesThatBeginWith("endsolid", bytes) != linesThatBeginWith("solid", bytes)) {
-    throw std::runtime_error("end is missing");
-  }
-  return linesThatBeginWith("facet", bytes);
+  return format == "obj" ? linesThatBeginWith("f", bytes) : 0;
 }
 
 }  // namespace sweep_guard_ros

@@ -5,8 +5,7 @@
 
 namespace sweep_guard_ros {
 
-// Functions for the bytes of an STL, OBJ or DAE file that find what assimp silently omits or distorts. `format` is stl,
-// obj or dae.
+// Functions for the bytes of an OBJ or DAE file that find what assimp silently omits or distorts. `format` is obj or dae.
 
 /// Changes text that assimp would omit: removes a byte order mark, and converts to lower case. Blanks the materials of
 /// an OBJ, which are in other files.
@@ -19,9 +18,8 @@ void simplify(std::string& bytes, const std::string& format);
 ///     that has no polygons
 void requireReadable(const std::string& bytes, const std::string& format);
 
-/// Returns the number of faces in the text of an OBJ or STL; 0 if assimp checks it itself.
+/// Returns the number of faces in the text of an OBJ; 0 for a DAE, whose faces requireReadable() checks.
 /// @param bytes  simplified
-/// @throws std::runtime_error if the end of an STL is missing
 std::size_t expectedFaces(const std::string& bytes, const std::string& format);
 
 }  // namespace sweep_guard_ros

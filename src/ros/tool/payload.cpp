@@ -73,7 +73,7 @@ Parameters withPayload(const Parameters& before, const Payload& payload, const s
     throw sweep_guard_core::InvalidInput("the tool has a link '" + payload.id +
                                          "' already: contacts could not tell them apart");
   }
-  const Eigen::Isometry3d X_BM = pose.body(bodyWithLink(before, payload.link)).X_WB.inverse() * payload.X_WM;
+  const Eigen::Isometry3d X_BM = pose.bodies[bodyWithLink(before, payload.link)].X_WB.inverse() * payload.X_WM;
   Parameters next = before;
   next.attached.insert(payload.id);
   if (!before.articulated) setRigidTool(with(*before.tool, payload, X_BM, before.tool_padding), next);

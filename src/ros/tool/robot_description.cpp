@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <string_view>
+#include <utility>
 
 #include "sweep_guard/common/error.h"
 
@@ -53,10 +55,18 @@ int elements(const XMLElement& parent, const char* name = nullptr) {
 }
 
 // urdfdom silently reads only the first of several geometries.
-void requireOneGeometry(const XMLElement& collision, const std::string& link) {
-  const XMLElement* const geometry = collision.FirstChildElement("geometry");
-  if (geometry != nullptr && elements(collision, "geometry") == 1 && elements(*geometry) == 1) return;
-  throw InvalidInput("link '" + link + "': a collision must have one geometry of one shape; give each shape its own");
+void requireOneGeometry(const XMLElement& shape, const std::string& link) {
+  const XMLElement* const geometry = shape.FirstChildElement("geometry");
+  if (geometry != nullptr && elements(shape, "geometry") == 1 && elements(*geometry) == 1) return;
+  throw InvalidInput("link '" + link + "': a " + shape.Name() +
+                     " must have one geometry of one shape; give each shape its own");
+}
+
+void requireOneGeometryEach(const XMLElement& link, const char* kind) {
+  for (const XMLElement* shape = link.FirstChildElement(kind); shape != nullptr;
+       shape = shape->NextSiblingElement(kind)) {
+    requireOneGeometry(*shape, nameOf(link));
+  }
 }
 
 class PrinterWithoutComments : public tinyxml2::XMLPrinter {
@@ -65,18 +75,64 @@ class PrinterWithoutComments : public tinyxml2::XMLPrinter {
   bool Visit(const tinyxml2::XMLComment&) override { return true; }
 };
 
-// urdfdom passes text that it quotes to printf() as a format.
-std::string withoutFormats(const std::string& xml) {
+// urdfdom passes text that it quotes to printf() as a format. So for urdfdom, a percent sign is a character of private use with
+// a digit; and that character, where the text has it already, is the same with another digit.
+constexpr std::string_view kMask = "\xEE\x80\x80";
+
+std::string masked(const std::string& xml) {
   std::string text;
-  for (const char c : xml) {
-    if (c == '%') text += "\xEF\xBC\x85";  // of full width
-    if (c != '%') text += c;
+  for (size_t i = 0; i < xml.size(); ++i) {
+    const bool is_mask = xml.compare(i, kMask.size(), kMask) == 0;
+    if (is_mask || xml[i] == '%') text += kMask;
+    if (is_mask) i += kMask.size() - 1;
+    text += is_mask ? '1' : xml[i] == '%' ? '0' : xml[i];
   }
   return text;
 }
 
+std::string unmasked(std::string_view text) {
+  std::string original;
+  for (size_t mask = text.find(kMask); mask != std::string_view::npos; mask = text.find(kMask)) {
+    const bool percent = text.substr(mask + kMask.size(), 1) == "0";
+    original.append(text.substr(0, mask)).append(percent ? "%" : kMask);
+    text.remove_prefix(std::min(mask + kMask.size() + 1, text.size()));
+  }
+  return original.append(text);
+}
+
+template <typename Part>
+void unmaskNames(std::map<std::string, std::shared_ptr<Part>>& parts) {
+  std::map<std::string, std::shared_ptr<Part>> renamed;
+  for (auto& [name, part] : parts) {
+    part->name = unmasked(name);
+    renamed.emplace(part->name, part);
+  }
+  parts = std::move(renamed);
+}
+
+template <typename Shape>
+void unmaskFile(const std::shared_ptr<Shape>& shape) {
+  if (!shape->geometry || shape->geometry->type != urdf::Geometry::MESH) return;
+  auto& mesh = static_cast<urdf::Mesh&>(*shape->geometry);
+  mesh.filename = unmasked(mesh.filename);
+}
+
+void unmask(urdf::ModelInterface& model) {
+  unmaskNames(model.links_);
+  unmaskNames(model.joints_);
+  for (const auto& [name, joint] : model.joints_) {
+    joint->parent_link_name = unmasked(joint->parent_link_name);
+    joint->child_link_name = unmasked(joint->child_link_name);
+    if (joint->mimic) joint->mimic->joint_name = unmasked(joint->mimic->joint_name);
+  }
+  for (const auto& [name, link] : model.links_) {
+    for (const auto& shape : link->collision_array) unmaskFile(shape);
+    for (const auto& shape : link->visual_array) unmaskFile(shape);
+  }
+}
+
 // tinyxml2 limits the depth of nested elements; TinyXML, and so urdfdom, does not.
-std::string checkedXml(const std::string& urdf) {
+std::string checkedXml(const std::string& urdf, bool uses_visuals) {
   if (urdf.size() > kMaxDescription) throw InvalidInput("larger than 8 MiB");
   tinyxml2::XMLDocument document;
   if (document.Parse(urdf.data(), urdf.size()) != tinyxml2::XML_SUCCESS) {
@@ -86,19 +142,17 @@ std::string checkedXml(const std::string& urdf) {
   if (robot == nullptr) throw InvalidInput("no element <robot>");
   for (const XMLElement* link = robot->FirstChildElement("link"); link != nullptr;
        link = link->NextSiblingElement("link")) {
-    for (const XMLElement* collision = link->FirstChildElement("collision"); collision != nullptr;
-         collision = collision->NextSiblingElement("collision")) {
-      requireOneGeometry(*collision, nameOf(*link));
-    }
+    requireOneGeometryEach(*link, "collision");
+    if (uses_visuals) requireOneGeometryEach(*link, "visual");
   }
   PrinterWithoutComments printer;
   document.Accept(&printer);
-  return withoutFormats(printer.CStr());
+  return masked(printer.CStr());
 }
 
 std::shared_ptr<const urdf::ModelInterface> parse(const std::string& xml) {
   const ErrorCollector errors;
-  std::shared_ptr<const urdf::ModelInterface> model;
+  std::shared_ptr<urdf::ModelInterface> model;
   std::string reason;
   try {
     model = urdf::parseURDF(xml);
@@ -107,7 +161,8 @@ std::shared_ptr<const urdf::ModelInterface> parse(const std::string& xml) {
   }
   if (!errors.text().empty()) reason = errors.text();
   if (reason.empty() && (!model || !model->getRoot())) reason = "there is no root link";
-  if (!reason.empty()) throw InvalidInput("not a URDF: " + oneLine(reason));
+  if (!reason.empty()) throw InvalidInput("not a URDF: " + oneLine(unmasked(reason)));
+  unmask(*model);
   return model;
 }
 
@@ -135,7 +190,8 @@ void requireConnected(const urdf::ModelInterface& model) {
 
 }  // namespace
 
-RobotDescription::RobotDescription(const std::string& urdf) : model_(parse(checkedXml(urdf))) {
+RobotDescription::RobotDescription(const std::string& urdf, bool uses_visuals)
+    : model_(parse(checkedXml(urdf, uses_visuals))) {
   requireOneParentEach(*model_);
   requireConnected(*model_);
 }

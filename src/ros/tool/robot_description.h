@@ -12,9 +12,11 @@ namespace sweep_guard_ros {
 /// Holds a robot from a URDF, with more checks than urdfdom's: no part of a tool may be lost silently.
 class RobotDescription {
  public:
+  /// @param uses_visuals  the tool is made of visual geometry, too
   /// @throws sweep_guard_core::InvalidInput if the text is no XML, is larger than 8 MiB or is refused by urdfdom; if a
-  ///     collision has several geometries; if a link has two parents; or if it is not connected to the root link
-  explicit RobotDescription(const std::string& urdf);
+  ///     collision, or a visual that may be used, has several geometries; if a link has two parents; or if it is not
+  ///     connected to the root link
+  explicit RobotDescription(const std::string& urdf, bool uses_visuals = false);
 
   const urdf::Link* link(const std::string& name) const;    ///< null if missing
   const urdf::Joint* joint(const std::string& name) const;  ///< null if missing

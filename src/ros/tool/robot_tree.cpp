@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -12,12 +13,13 @@ namespace sweep_guard_ros {
 namespace {
 
 using sweep_guard_core::InvalidInput;
+using sweep_guard_core::JointsBesideTree;
 using sweep_guard_core::JointType;
 using sweep_guard_core::JointVariable;
 using sweep_guard_core::KinematicTree;
 using sweep_guard_core::TreeLink;
 
-constexpr int kMaxMimicDepth = 16;
+constexpr size_t kMaxMimicDepth = 16;
 constexpr double kMaxAngle = 1e4;  // [rad], of a continuous joint
 
 // From the root of the robot down to the link.
@@ -76,11 +78,26 @@ void requireSupported(const urdf::Joint& joint) {
                      "' is within the tool: only fixed, revolute, continuous and prismatic joints are supported there");
 }
 
-const urdf::Joint& followedBy(const RobotDescription& robot, const urdf::Joint& joint, int depth) {
-  const urdf::Joint* const followed = robot.joint(joint.mimic->joint_name);
-  if (followed != nullptr && depth < kMaxMimicDepth) return *followed;
-  throw InvalidInput("joint '" + joint.name + "' mimics '" + joint.mimic->joint_name +
-                     "', which does not exist or mimics too many others");
+std::string mimicEachOther(Joints::const_iterator first, Joints::const_iterator end) {
+  if (end - first == 1) return "joint '" + (*first)->name + "' mimics itself";
+  std::string names = "'" + (*first)->name + "'";
+  for (auto each = first + 1; each != end; ++each) names += (each + 1 == end ? " and '" : ", '") + (*each)->name + "'";
+  return "joints " + names + " mimic each other: one of them has to lead";
+}
+
+// @param chain  each but the first is mimicked by the one before
+const urdf::Joint& followedBy(const RobotDescription& robot, const Joints& chain) {
+  const urdf::Joint& joint = *chain.back();
+  const std::string& name = joint.mimic->joint_name;
+  const urdf::Joint* const followed = robot.joint(name);
+  const auto refusal = [&](const char* why) {
+    return InvalidInput("joint '" + joint.name + "' mimics '" + name + "', which " + why);
+  };
+  if (followed == nullptr) throw refusal("does not exist");
+  const auto first = std::find_if(chain.begin(), chain.end(), [&](const auto* each) { return each->name == name; });
+  if (first != chain.end()) throw InvalidInput(mimicEachOther(first, chain.end()));
+  if (chain.size() > kMaxMimicDepth) throw refusal("mimics too many others");
+  return *followed;
 }
 
 std::string shown(double lower, double upper) {
@@ -121,15 +138,15 @@ class TreeBuilder {
   }
 
   void follow(const urdf::Joint& joint, TreeLink& link) {
-    const urdf::Joint* leader = &joint;
-    requireSupported(*leader);
-    for (int depth = 0; leader->mimic; ++depth) {
-      link.offset += link.multiplier * leader->mimic->offset;
-      link.multiplier *= leader->mimic->multiplier;
-      leader = &followedBy(robot_, *leader, depth);
-      requireSupported(*leader);
+    Joints chain{&joint};
+    requireSupported(joint);
+    while (chain.back()->mimic) {
+      link.offset += link.multiplier * chain.back()->mimic->offset;
+      link.multiplier *= chain.back()->mimic->multiplier;
+      chain.push_back(&followedBy(robot_, chain));
+      requireSupported(*chain.back());
     }
-    link.variable = variableOf(*leader);
+    link.variable = variableOf(*chain.back());
   }
 
   size_t variableOf(const urdf::Joint& joint) {
@@ -159,6 +176,50 @@ void checkGiven(const RobotDescription& robot, const KinematicTree& tree, const 
   throw InvalidInput("joint '" + name + "' mimics '" + joint->mimic->joint_name + "': set that joint in tool/joints");
 }
 
+void checkLimits(const KinematicTree& tree, const std::vector<double>& positions) {
+  for (size_t i = 0; i < positions.size(); ++i) {
+    const JointVariable& joint = tree.variables()[i];
+    if (positions[i] >= joint.lower && positions[i] <= joint.upper) continue;  // false for NaN
+    std::ostringstream text;
+    text << "tool/joints/" << joint.name << " is " << positions[i] << ", beyond the joint's limits, "
+         << shown(joint.lower, joint.upper);
+    throw InvalidInput(text.str());
+  }
+}
+
+// Adds a joint, and those that it mimics.
+void addWithLeaders(const RobotDescription& robot, const urdf::Joint* joint, std::set<std::string>& names) {
+  bool is_new = names.insert(joint->name).second;
+  while (is_new && joint != nullptr && joint->mimic) {
+    is_new = names.insert(joint->mimic->joint_name).second;
+    joint = robot.joint(joint->mimic->joint_name);
+  }
+}
+
+// Of the joints that move the link, and of those that they mimic.
+std::set<std::string> namesOfMovers(const RobotDescription& robot, const urdf::Link& link) {
+  std::set<std::string> names;
+  for (const urdf::Joint* joint : jointsAbove(robot, link)) {
+    if (joint->type != urdf::Joint::FIXED) addWithLeaders(robot, joint, names);
+  }
+  return names;
+}
+
+JointsBesideTree jointsBeside(const RobotDescription& robot, const urdf::Link& frame, const KinematicTree& tree) {
+  JointsBesideTree beside{namesOfMovers(robot, frame), {}};
+  std::set<std::string> known = beside.of_frame;
+  for (const JointVariable& variable : tree.variables()) known.insert(variable.name);
+  for (const TreeLink& link : tree.links()) {
+    if (const urdf::Joint* const joint = link.moves() ? robot.joint(link.joint) : nullptr)
+      addWithLeaders(robot, joint, known);
+  }
+  for (const urdf::Link* link : RobotDescription::subtree(robot.root())) {
+    if (link->parent_joint && known.count(link->parent_joint->name) == 0)
+      beside.elsewhere.insert(link->parent_joint->name);
+  }
+  return beside;
+}
+
 }  // namespace
 
 RobotTree treeOf(const RobotDescription& robot, const urdf::Link& frame, const std::vector<const urdf::Link*>& links) {
@@ -168,7 +229,9 @@ RobotTree treeOf(const RobotDescription& robot, const urdf::Link& frame, const s
   TreeBuilder builder(robot);
   std::vector<size_t> ends;
   for (const Joints& path : paths) ends.push_back(builder.add(path));
-  return {builder.tree(), ends.front(), {ends.begin() + 1, ends.end()}};
+  KinematicTree tree = builder.tree();
+  JointsBesideTree beside = jointsBeside(robot, frame, tree);
+  return {std::move(tree), ends.front(), {ends.begin() + 1, ends.end()}, std::move(beside)};
 }
 
 std::vector<double> positionsOf(const RobotDescription& robot, const KinematicTree& tree,
@@ -179,7 +242,7 @@ std::vector<double> positionsOf(const RobotDescription& robot, const KinematicTr
     const auto found = given.find(tree.variables()[i].name);
     if (found != given.end()) positions[i] = found->second;
   }
-  checkLimits(tree, positions, "tool/joints/");
+  checkLimits(tree, positions);
   return positions;
 }
 
@@ -189,16 +252,12 @@ size_t variableNamed(const KinematicTree& tree, const std::string& joint) {
     if (tree.variables()[i].name == joint) return i;
     known += (i == 0 ? "" : ", ") + tree.variables()[i].name;
   }
+  for (const TreeLink& link : tree.links()) {
+    if (link.joint != joint || !link.moves()) continue;
+    throw InvalidInput("joint '" + joint + "' mimics '" + tree.variables()[link.variable].name + "': name that joint");
+  }
   throw InvalidInput("no joint '" + sweep_guard_core::printable(joint) +
                      "' moves the tool's links: " + (known.empty() ? "none does" : "those that do are " + known));
-}
-
-void checkLimits(const KinematicTree& tree, const std::vector<double>& positions, const std::string& where) {
-  for (size_t i = 0; i < positions.size(); ++i) {
-    const auto& [name, lower, upper, continuous, velocity] = tree.variables()[i];
-    if (positions[i] >= lower && positions[i] <= upper) continue;  // false for NaN
-    throw InvalidInput(where + name + " is beyond the joint's limits, " + shown(lower, upper));
-  }
 }
 
 }  // namespace sweep_guard_ros

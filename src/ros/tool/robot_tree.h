@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ros/tool/robot_description.h"
+#include "sweep_guard/kinematics/joint_plan.h"
 #include "sweep_guard/kinematics/kinematic_tree.h"
 
 namespace sweep_guard_ros {
@@ -15,6 +16,7 @@ struct RobotTree {
   sweep_guard_core::KinematicTree tree;
   size_t frame;               ///< index in the tree; TreeLink::kRoot: the root
   std::vector<size_t> links;  ///< the same of each link
+  sweep_guard_core::JointsBesideTree beside;
 };
 
 /// @throws sweep_guard_core::InvalidInput naming a joint between them that has no axis or no limits, mimics a joint that
@@ -29,13 +31,7 @@ std::vector<double> positionsOf(const RobotDescription& robot, const sweep_guard
                                 const std::map<std::string, double>& given);
 
 /// Returns the index of the variable of a joint.
-/// @throws sweep_guard_core::InvalidInput naming those that there are, if the joint has none
+/// @throws sweep_guard_core::InvalidInput if the joint has none, naming those that have one, or the one that it mimics
 size_t variableNamed(const sweep_guard_core::KinematicTree& tree, const std::string& joint);
-
-/// @param positions  one of each variable
-/// @param where      begins the message, before the name of the joint
-/// @throws sweep_guard_core::InvalidInput if a position is not finite or beyond the limits of its joint
-void checkLimits(const sweep_guard_core::KinematicTree& tree, const std::vector<double>& positions,
-                 const std::string& where);
 
 }  // namespace sweep_guard_ros

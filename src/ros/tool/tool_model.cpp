@@ -44,7 +44,17 @@ const urdf::Link& frameOf(const RobotDescription& robot, const ToolModelOptions&
                                                   : linkNamed(robot, options.links.front(), "tool/links");
 }
 
-bool hasNoShape(const urdf::Link& link) { return link.collision_array.empty() && link.visual_array.empty(); }
+// Some descriptions give links that only join others a box of size 0.
+bool isPoint(const urdf::VisualSharedPtr& visual) {
+  if (visual->geometry->type != urdf::Geometry::BOX) return false;
+  const urdf::Vector3& dim = static_cast<const urdf::Box&>(*visual->geometry).dim;
+  return dim.x == 0.0 && dim.y == 0.0 && dim.z == 0.0;
+}
+
+bool hasNoShape(const urdf::Link& link) {
+  const auto& visuals = link.visual_array;
+  return link.collision_array.empty() && std::all_of(visuals.begin(), visuals.end(), isPoint);
+}
 
 std::vector<const urdf::Link*> linksOf(const RobotDescription& robot, const ToolModelOptions& options,
                                        const urdf::Link& frame) {
@@ -137,18 +147,35 @@ void requireWithinReach(double distance, const std::string& frame) {
   throw InvalidInput(text.str());
 }
 
-void addPieces(const urdf::Link& link, const Eigen::Isometry3d& X_TL, const ToolModelOptions& options,
-               const std::string& frame, std::vector<ConvexPiece>& pieces) {
-  for (const urdf::CollisionSharedPtr& collision : link.collision_array) {
-    const Eigen::Isometry3d X_TC = X_TL * fromUrdf(collision->origin);
-    requireWithinReach(X_TC.translation().norm(), frame);
-    for (const ConvexShape& shape_C : shapesOf(*collision->geometry, options)) {
-      requireWithinReach(shape_C.boundingRadius(), frame);
-      const ConvexShape shape_T = shape_C.placed(X_TC).padded(options.padding);
-      requireWithinReach(shape_T.boundingRadius(), frame);
-      pieces.push_back({link.name, shape_T});
-    }
+// @param element  a collision or a visual
+template <typename Element>
+void addPiecesOf(const Element& element, const urdf::Link& link, const Eigen::Isometry3d& X_TL,
+                 const ToolModelOptions& options, ToolModel& model) {
+  const Eigen::Isometry3d X_TC = X_TL * fromUrdf(element.origin);
+  requireWithinReach(X_TC.translation().norm(), model.frame);
+  for (const ConvexShape& shape_C : shapesOf(*element.geometry, options)) {
+    requireWithinReach(shape_C.boundingRadius(), model.frame);
+    const ConvexShape shape_T = shape_C.placed(X_TC).padded(options.padding);
+    requireWithinReach(shape_T.boundingRadius(), model.frame);
+    model.pieces.push_back({link.name, shape_T});
   }
+}
+
+bool isMadeOfVisuals(const urdf::Link& link, const ToolModelOptions& options) {
+  const bool instead = options.geometry == LinkGeometry::kEither && link.collision_array.empty();
+  return options.geometry == LinkGeometry::kVisual || instead;
+}
+
+void addPieces(const urdf::Link& link, const Eigen::Isometry3d& X_TL, const ToolModelOptions& options,
+               ToolModel& model) {
+  const size_t before = model.pieces.size();
+  const bool visual = isMadeOfVisuals(link, options);
+  if (visual) {
+    for (const auto& element : link.visual_array) addPiecesOf(*element, link, X_TL, options, model);
+  } else {
+    for (const auto& element : link.collision_array) addPiecesOf(*element, link, X_TL, options, model);
+  }
+  model.shapes.push_back({link.name, visual, model.pieces.size() - before});
 }
 
 template <typename Work>
@@ -160,12 +187,16 @@ void withLinkInErrors(const urdf::Link& link, Work work) {
   }
 }
 
-void requireCollision(const urdf::Link& link) {
-  if (!link.collision_array.empty()) return;
+void requireGeometry(const urdf::Link& link, const ToolModelOptions& options) {
+  const bool visual = isMadeOfVisuals(link, options);
+  if (visual ? !link.visual_array.empty() : !link.collision_array.empty()) return;
+  const std::string wanted = visual ? "visual" : "collision";
   const std::string found =
-      link.visual_array.empty() ? "it has no geometry" : "it has visual geometry, but no collision";
-  throw InvalidInput("link '" + link.name + "': " + found +
-                     "; add a <collision>, or list only links with one in tool/links");
+      hasNoShape(link) ? "it has no geometry"
+                       : std::string("it has ") + (visual ? "collision" : "visual") + " geometry, but no " + wanted;
+  const std::string other = hasNoShape(link) ? "" : "set tool/geometry to either, ";
+  throw InvalidInput("link '" + link.name + "': " + found + "; " + other + "add a <" + wanted +
+                     ">, or list only links with one in tool/links");
 }
 
 using Pieces = std::vector<ConvexPiece>;
@@ -185,13 +216,13 @@ void addRobot(RobotTree&& robot_tree, const std::vector<double>& positions, cons
     return;
   }
   model.robot = std::make_shared<const RobotModel>(
-      RobotModel{robotOf(std::move(robot_tree.tree), pieces_of_links), positions, X_TR});
+      RobotModel{robotOf(std::move(robot_tree.tree), pieces_of_links), positions, X_TR, std::move(robot_tree.beside)});
 }
 
 }  // namespace
 
 ToolModel loadToolModel(const std::string& urdf, const ToolModelOptions& options) {
-  const RobotDescription robot(urdf);
+  const RobotDescription robot(urdf, options.geometry != LinkGeometry::kCollision);
   const urdf::Link& frame = frameOf(robot, options);
   const std::vector<const urdf::Link*> links = linksOf(robot, options, frame);
   RobotTree robot_tree = treeOf(robot, frame, links);
@@ -199,16 +230,16 @@ ToolModel loadToolModel(const std::string& urdf, const ToolModelOptions& options
   std::vector<Eigen::Isometry3d> X_RL;
   robot_tree.tree.poses(positions, X_RL);
   const Eigen::Isometry3d X_TR = poseOf(robot_tree.frame, X_RL).inverse();
-  ToolModel model{{}, frame.name, robot_tree.tree.jointPositions(positions), nullptr, {}};
+  ToolModel model{{}, frame.name, {}, robot_tree.tree.jointPositions(positions), nullptr, {}};
   std::vector<std::pair<size_t, Pieces>> pieces_of_links;
   for (size_t i = 0; i < links.size(); ++i) {
     const Eigen::Isometry3d X_TL = X_TR * poseOf(robot_tree.links[i], X_RL);
     const auto before = static_cast<std::ptrdiff_t>(model.pieces.size());
-    withLinkInErrors(*links[i], [&] { addPieces(*links[i], X_TL, options, frame.name, model.pieces); });
+    withLinkInErrors(*links[i], [&] { addPieces(*links[i], X_TL, options, model); });
     pieces_of_links.emplace_back(robot_tree.links[i],
                                  placed(X_TL.inverse(), model.pieces.begin() + before, model.pieces.end()));
   }
-  for (const urdf::Link* link : links) requireCollision(*link);  // last, to report a missing mesh first
+  for (const urdf::Link* link : links) requireGeometry(*link, options);  // last, to report a missing mesh first
   addRobot(std::move(robot_tree), positions, X_TR, pieces_of_links, model);
   return model;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "common/number_text.h"
 #include "detection/inside.h"
 #include "geometry/qhull.h"
 #include "sweep_guard/common/error.h"
@@ -26,7 +27,8 @@ constexpr double kBarsInSheet = 3.0;    // in all directions of a sheet, per E t
 
 void requirePositive(const char* name, double value) {
   if (value > 0.0 && std::isfinite(value)) return;
-  throw InvalidInput(std::string(name) + " of the elastic workpiece is " + std::to_string(value) + ", must be above 0");
+  throw InvalidInput(std::string(name) + " of the elastic workpiece is " + sweep_guard_core::shortText(value) +
+                     ", must be above 0");
 }
 
 void check(const ElasticMaterial& material) {

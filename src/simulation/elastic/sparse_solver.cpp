@@ -6,18 +6,24 @@
 
 #define EIGEN_MPL2_ONLY
 #include <Eigen/SparseCholesky>
+#endif
 
 namespace sweep_guard_simulation {
+
+struct SparseSolver::Factors {
+#if EIGEN_VERSION_AT_LEAST(3, 4, 0)
+  explicit Factors(const Eigen::SparseMatrix<double>& matrix) : cholesky(matrix) {}
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> cholesky;
+#endif
+};
+
+#if EIGEN_VERSION_AT_LEAST(3, 4, 0)
+
 namespace {
 
 constexpr double kSingular = 1e-13;  // of the largest pivot
 
 }  // namespace
-
-struct SparseSolver::Factors {
-  explicit Factors(const Eigen::SparseMatrix<double>& matrix) : cholesky(matrix) {}
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> cholesky;
-};
 
 SparseSolver::SparseSolver(const Eigen::SparseMatrix<double>& matrix)
     : factors_(std::make_unique<const Factors>(matrix)) {
@@ -31,13 +37,7 @@ Eigen::MatrixX3d SparseSolver::solve(const Eigen::MatrixX3d& right) const { retu
 
 Eigen::VectorXd SparseSolver::solve(const Eigen::VectorXd& right) const { return factors_->cholesky.solve(right); }
 
-}  // namespace sweep_guard_simulation
-
 #else
-
-namespace sweep_guard_simulation {
-
-struct SparseSolver::Factors {};
 
 SparseSolver::SparseSolver(const Eigen::SparseMatrix<double>&) {
   throw sweep_guard_core::InvalidInput("an elastic workpiece needs a build with Eigen 3.4 or newer");
@@ -47,11 +47,7 @@ Eigen::MatrixX3d SparseSolver::solve(const Eigen::MatrixX3d& right) const { retu
 
 Eigen::VectorXd SparseSolver::solve(const Eigen::VectorXd& right) const { return right; }
 
-}  // namespace sweep_guard_simulation
-
 #endif
-
-namespace sweep_guard_simulation {
 
 SparseSolver::~SparseSolver() = default;
 SparseSolver::SparseSolver(SparseSolver&&) noexcept = default;

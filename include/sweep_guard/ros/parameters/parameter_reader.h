@@ -24,7 +24,7 @@ struct ParameterInfo {
   std::string key;
   ParameterValue value;  ///< set value, or the fallback
   ParameterValue fallback;
-  double lowest = -std::numeric_limits<double>::infinity();  ///< bound of a number; a Bound may narrow it
+  double lowest = -std::numeric_limits<double>::infinity();  ///< bound of a number; a `narrowed` range may be closer
   double highest = std::numeric_limits<double>::infinity();
   std::vector<std::string> choices;  ///< allowed texts of choice(); empty: any
   std::string wanted;                ///< type, unit and range, as text
@@ -36,12 +36,7 @@ struct ParameterRange {
   double lowest;
   double highest;
   const char* unit = "";  ///< for the description only, without brackets; not null
-};
-
-/// Narrows a range by another parameter.
-struct ParameterBound {
-  ParameterRange range;  ///< checked in place of the wider range
-  const char* note;      ///< words for the error text that name the other parameter; not null
+  const char* note = "";  ///< of a narrowed range: words for the error text that name the other parameter; not null
 };
 
 /// Reads the private parameters of a node. Each function returns the value that is set, or the fallback if none is, and
@@ -51,7 +46,6 @@ struct ParameterBound {
 class ParameterReader {
  public:
   using Range = ParameterRange;
-  using Bound = ParameterBound;
 
   /// Holds values by key; empty: not set.
   using Settings = std::map<std::string, std::optional<XmlRpc::XmlRpcValue>>;
@@ -67,8 +61,9 @@ class ParameterReader {
   }
 
   /// Reads a number; accepts an integer. Checks the fallback, too, as do integer(), name() and choice().
+  /// @param narrowed  by another parameter: checked in place of the wider range
   double number(const std::string& key, double fallback, const Range& range, const std::string& effect = "",
-                const std::optional<Bound>& bound = {});
+                const std::optional<Range>& narrowed = {});
   int integer(const std::string& key, int fallback, int lowest, int highest, const std::string& effect = "");
   bool flag(const std::string& key, bool fallback, const std::string& effect = "");
   /// Reads a text, which may be empty.
@@ -89,11 +84,15 @@ class ParameterReader {
                                      const std::string& effect = "");
   /// Reads a list of texts that are not empty; [] if not set.
   std::vector<std::string> texts(const std::string& key, const std::string& effect = "");
+  /// Reads the name of another node, and resolves it as the node itself does.
+  std::string node(const std::string& key, const std::string& fallback, const std::string& effect = "");
   /// Reads a list of names of other nodes, each once, and resolves them as the node itself does; [] if not set.
   std::vector<std::string> nodes(const std::string& key, const std::string& effect = "");
   /// Reads a group of finite numbers by their names in the group, each within a range if there is one; empty if not set.
   std::map<std::string, double> numbers(const std::string& key, const std::string& effect = "",
                                         const std::optional<Range>& range = {});
+  /// Reads a group of texts, none of them empty, by their names in the group; empty if not set.
+  std::map<std::string, std::string> textsByName(const std::string& key, const std::string& effect = "");
   /// Reads a group of groups, each of which has one flag: by the names of the inner groups; empty if not set.
   std::map<std::string, bool> flagsOf(const std::string& key, const std::string& flag, const std::string& effect = "");
   /// Reads a list of groups, each of which has these texts, none of them empty, and nothing else; [] if not set. Returns the
@@ -120,6 +119,7 @@ class ParameterReader {
  private:
   void describe(ParameterInfo info);
   std::string optionalText(const std::string& key, const std::string& wanted, const std::string& effect);
+  std::string resolved(const std::string& key, const std::string& name) const;
   bool isGroup(const std::string& key) const;
   bool get(const std::string& key, XmlRpc::XmlRpcValue& value);
   bool getList(const std::string& key, const std::string& wanted, XmlRpc::XmlRpcValue& list);

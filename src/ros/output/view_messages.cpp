@@ -1,4 +1,4 @@
-#include "ros/output/view_publisher.h"
+#include "ros/output/view_messages.h"
 
 #include <algorithm>
 
@@ -101,28 +101,6 @@ sweep_guard::ToolShape toMsg(const std::vector<sweep_guard_core::Tool>& bodies) 
     }
   }
   return msg;
-}
-
-ViewPublisher::ViewPublisher(ros::NodeHandle private_node, std::string fixed_frame, std::string tool_frame,
-                             const std::vector<sweep_guard_core::Tool>& bodies)
-    : fixed_frame_(std::move(fixed_frame)),
-      tool_frame_(std::move(tool_frame)),
-      view_publisher_(private_node.advertise<sweep_guard::View>("view", 1)),
-      tool_publisher_(private_node.advertise<sweep_guard::ToolShape>("tool", 1, /*latch=*/true)) {
-  publishTool(bodies);
-}
-
-void ViewPublisher::publishTool(const std::vector<sweep_guard_core::Tool>& bodies) const {
-  sweep_guard::ToolShape shape = toMsg(bodies);
-  shape.header.frame_id = tool_frame_;
-  tool_publisher_.publish(shape);
-}
-
-void ViewPublisher::publish(const MarkerScene& scene) const {
-  sweep_guard::View view = toMsg(scene);
-  view.header.frame_id = fixed_frame_;
-  view.tool = tool_frame_;
-  view_publisher_.publish(view);
 }
 
 }  // namespace sweep_guard_ros

@@ -7,14 +7,6 @@
 
 namespace sweep_guard_ros {
 
-/// The guard whose outputs are read.
-struct GuardSource {
-  std::string guard;  ///< name of its node
-  std::string fixed_frame;
-  std::string tool_frame;
-  sweep_guard_core::Duration silence;  ///< after which another node may publish, or stamps may go back
-};
-
 /// Where the poses of a frame come from.
 struct PoseSource {
   std::string name = "tool pose";   ///< for people

@@ -1,4 +1,4 @@
-#include "ros/output/view_publisher.h"
+#include "ros/output/view_messages.h"
 
 #include <gtest/gtest.h>
 
@@ -52,21 +52,23 @@ TEST(ViewTest, ShowsSweepsContactsAndPrediction) {
 
 TEST(ViewTest, AContactThatTheWarningDoesNotSpeakOfIsNotDrawn) {
   constexpr auto kHold = std::chrono::milliseconds(500);
+  sweep_guard_core::WarningLimits limits{};
+  limits.hold_time = kHold;
   MarkerScene scene = touching();
   scene.warning.mesh_id = "square";
-  EXPECT_TRUE(isOfWarning(scene, kHold));
+  EXPECT_TRUE(isOfWarning(scene, limits));
   scene.warning.mesh_id = "spleen";
-  EXPECT_FALSE(isOfWarning(scene, kHold));
+  EXPECT_FALSE(isOfWarning(scene, limits));
 
   scene.warning.mesh_id = "square";
   auto later = std::make_shared<sweep_guard_core::SweepReport>();
   later->end = scene.contact->end + kHold;
   scene.newest = later;
-  EXPECT_TRUE(isOfWarning(scene, kHold));
+  EXPECT_TRUE(isOfWarning(scene, limits));
   later->end += std::chrono::milliseconds(101);
-  EXPECT_FALSE(isOfWarning(scene, kHold));
+  EXPECT_FALSE(isOfWarning(scene, limits));
   scene.contact.reset();
-  EXPECT_FALSE(isOfWarning(scene, kHold));
+  EXPECT_FALSE(isOfWarning(scene, limits));
 }
 
 TEST(ViewTest, AClipIsNegativeInside) {

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <rosbag/bag.h>
+#include <rosbag/message_instance.h>
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sweep_guard/common/time.h"
+
+namespace sweep_guard_session {
+
+/// Returns the files of a list `FILE:FILE:...`; the whole list if there is a file of that name.
+/// @param folder  that relative names count from
+std::vector<std::string> bagFiles(const std::string& list, const std::string& folder);
+
+/// Reads the bags of one session as if they were one: `rosbag record --split` writes it in parts.
+class SessionFiles {
+ public:
+  using Read = std::function<void(const rosbag::MessageInstance&)>;
+
+  /// @param paths  at least one
+  /// @throws sweep_guard_core::InvalidInput that says what is wrong with which file and what to do: it is missing, not regular, no
+  ///     bag, without index, or broken; or all are empty
+  explicit SessionFiles(const std::vector<std::string>& paths);
+
+  std::string name() const;              ///< in words: the first file, and how many more
+  sweep_guard_core::Time begin() const;  ///< first message
+  sweep_guard_core::Time end() const;    ///< last message
+  const std::map<std::string, std::string>& types() const { return types_; }  ///< of messages, by topic
+  std::size_t count(const std::string& topic) const;                          ///< number of messages
+
+  /// Passes the messages on some topics that were recorded in [from, to] to a function, in the order of recording.
+  /// @throws sweep_guard_core::InvalidInput if a file is broken, or if `read` throws one
+  void forEach(const std::vector<std::string>& topics, sweep_guard_core::Time from, sweep_guard_core::Time to,
+               const Read& read) const;
+
+  /// The same with all messages on these topics.
+  void forEach(const std::vector<std::string>& topics, const Read& read) const {
+    forEach(topics, begin(), end(), read);
+  }
+
+ private:
+  std::vector<std::string> paths_;
+  std::vector<std::unique_ptr<const rosbag::Bag>> bags_;
+  std::map<std::string, std::string> types_;
+  ros::Time begin_;
+  ros::Time end_;
+};
+
+}  // namespace sweep_guard_session
