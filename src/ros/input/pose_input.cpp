@@ -4,7 +4,7 @@
 #include <functional>
 #include <utility>
 
-#include "ros/input/future_stamp.h"
+#include "ros/input/pose_refusal.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/ros/conversions.h"
@@ -22,27 +22,6 @@ constexpr char kPoseTopic[] = "tool_pose";
 constexpr char kJointsTopic[] = "joint_states";
 constexpr std::uint32_t kPosesQueued =
     65536;  // 65 s at 1 kHz; a pose that ROS drops beyond that is a gap in header.seq
-
-struct PoseRefused : sweep_guard_core::InvalidInput {
-  PoseRefused(Reason why, const std::string& message) : InvalidInput(message), reason(why) {}
-  Reason reason;
-};
-
-void requireStamp(sweep_guard_core::Time stamp) {
-  if (stamp == sweep_guard_core::Time())
-    throw PoseRefused(sweep_guard_core::kPoseInvalid, "stamp is 0: stamp each pose");
-  if (liesInFuture(stamp)) throw PoseRefused(sweep_guard_core::kFutureStamp, kFutureStampText);
-}
-
-void requireStamp(sweep_guard_core::Time stamp, const std::string& joint) {
-  try {
-    requireStamp(stamp);
-  } catch (const PoseRefused& error) {
-    const bool is_zero = stamp == sweep_guard_core::Time();
-    throw PoseRefused(error.reason, "joint '" + sweep_guard_core::printable(joint) +
-                                        "': " + (is_zero ? "stamp is 0: stamp each message" : error.what()));
-  }
-}
 
 std::string sourceOf(const ros::NodeHandle& node, const Parameters& parameters) {
   const std::string frames = "tf " + parameters.fixed_frame + " to " + parameters.tool_frame;
@@ -171,16 +150,11 @@ std::string PoseInput::jumpTo(const sweep_guard_core::PoseWithFrames& state) {
   return jump;
 }
 
-// A publisher that does not count, or begins again, loses nothing.
 void PoseInput::countLost(const std::string& publisher, std::uint32_t sequence) {
-  const bool counts = publisher == publisher_ && sequence_ != 0 && sequence > sequence_ + 1;
-  if (counts) {
-    const std::uint32_t lost = sequence - sequence_ - 1;
-    lost_ += lost;
-    monitor_.posesLost(std::to_string(lost) + " tool poses were lost on the path", std::chrono::steady_clock::now());
-  }
-  if (publisher != publisher_) publisher_ = publisher;
-  sequence_ = sequence;
+  const std::uint32_t lost = gaps_.add(publisher, sequence);
+  if (lost == 0) return;
+  lost_ += lost;
+  monitor_.posesLost(std::to_string(lost) + " tool poses were lost on the path", std::chrono::steady_clock::now());
 }
 
 bool PoseInput::hasSeveralPublishers() const {
@@ -259,19 +233,8 @@ void PoseInput::addRestingPose() {
 // Refuses an input for the exception that is being handled.
 // @param sender  in words, at the beginning of the message
 void PoseInput::refuseCaught(const std::string& sender) {
-  try {
-    throw;
-  } catch (const PoseRefused& error) {
-    refuse(error.reason, sender + error.what());
-  } catch (const FrameError& error) {
-    refuse(sweep_guard_core::kTfFail, sender + error.what());
-  } catch (const sweep_guard_core::SeveralPublishers& error) {
-    refuse(sweep_guard_core::kMultiPublisher, sender + error.what());
-  } catch (const sweep_guard_core::OutOfOrder& error) {
-    refuse(sweep_guard_core::kOutOfOrder, sender + error.what());
-  } catch (const std::exception& error) {  // InvalidInput, or out of memory
-    refuse(sweep_guard_core::kPoseInvalid, sender + error.what());
-  }
+  const auto [reason, message] = caughtRefusal();
+  refuse(reason, sender + message);
 }
 
 void PoseInput::refuse(Reason reason, const std::string& message) {
@@ -307,9 +270,7 @@ void PoseInput::accept(ReceivedPose pose, bool rests) {
   const sweep_guard_core::Time stamp = std::max(pose.timestamps.stamp, rested_until);
   pose.timestamps.stamp = stamp;
   requireStamp(stamp);
-  if (previous && stamp < *previous) {
-    throw PoseRefused(sweep_guard_core::kOutOfOrder, "stamp is older than the previous pose's");
-  }
+  if (previous) requireOrder(stamp, *previous);
   late_.use(pose.frame);
   path_.note(stamp, pose.static_changes);
   if (const auto located = late_.locate(pose)) return pushLocated(*located);

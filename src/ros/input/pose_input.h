@@ -12,6 +12,7 @@
 #include "guard/workpiece_store.h"
 #include "monitor/input_record.h"
 #include "monitor/repeated_positions.h"
+#include "monitor/sequence_gaps.h"
 #include "monitor/work_queue.h"
 #include "prediction/tool_jumps.h"
 #include "ros/connection/bounded.h"
@@ -100,8 +101,7 @@ class PoseInput {
   std::optional<sweep_guard_core::Time> last_transform_;  // used by the tf listener's thread only
   sweep_guard_core::Instant rested_{};   // when addRestingPose() last added one; used by its thread only
   sweep_guard_core::Time rested_until_;  // stamp of the newest pose of a tool from tf at rest
-  std::string publisher_;                // of the previous pose
-  std::uint32_t sequence_ = 0;           // of the previous pose
+  sweep_guard_core::SequenceGaps gaps_;  // in header.seq
   std::atomic<std::uint64_t> lost_ = 0;
   std::atomic<size_t> waiting_ = 0;  // poses from tf
   LogThrottle log_;
