@@ -37,7 +37,7 @@ class PredictService {
   PredictService(const ros::NodeHandle& private_node, ServiceThreads& threads, const LiveParameters& live,
                  const sweep_guard_core::WorkpieceStore& workpieces, PredictMotion predict_motion);
 
-  void stop() { stopping_ = true; }  ///< tests the rest of a path coarsely, so that a running call ends soon. Any thread
+  void stop() { stopping_ = true; }  ///< tests the rest of each path coarsely: a running call ends soon. Any thread
 
  private:
   bool onCall(sweep_guard::Predict::Request& request, sweep_guard::Predict::Response& response);
