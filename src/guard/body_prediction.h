@@ -37,7 +37,7 @@ class BodyPrediction {
   /// @param[out] prediction  overwritten; must outlive the test; its buffers are used again
   void begin(const BodyPredictionRequest& request, Prediction& prediction);
   bool done() const;
-  /// Tests one sweep, or one half of a sweep, against one workpiece. Not if done().
+  /// Begins the test against the next workpiece, or tests one sweep, or one half of a sweep. Not if done().
   void step(Detector& detector);
   /// Reports the workpiece under test, and those that follow, as failed.
   void giveUp(const std::string& reason);

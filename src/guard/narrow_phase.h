@@ -34,13 +34,14 @@ struct NarrowPhaseResult {
   TriangleSet not_ruled_out;
   /// Candidates in contact: ascending, each once. If the mesh moved, its vertices are taken to move at constant speed.
   std::vector<TriangleContact> in_contact;
-  TriangleSet
-      unintended;  ///< those of `not_ruled_out` that a piece may meet that is not meant to: ascending, each once
+  /// Triangles of `not_ruled_out` that a piece may meet otherwise than intended: ascending, each once.
+  TriangleSet unintended;
 };
 
 /// Computes time of impact, contact point, normal and depth of each candidate [P, Sec. 5: "a fine detection"]. Candidates
-/// are tested in batches: first whether a corner lies in the tool at the start, then along directions that separated other
-/// triangles, and only those that are left one by one. Keeps its buffers, and the directions, between calls.
+/// are tested in batches: first those that were in contact before, whether a corner lies in the tool at the start; then
+/// the others along directions that separated other triangles; and those that are left one by one. Keeps its buffers, and
+/// the directions, between calls.
 class NarrowPhase {
  public:
   /// @param[out] result  overwritten; its buffers are used again

@@ -31,10 +31,12 @@ struct SweepRequest {
 };
 
 /// Tests the volumes that the tool sweeps during each sub-motion. Descends the tool's tree of boxes to its convex
-/// pieces where the boxes meet triangles, and hands the candidates of the pieces to the narrow phase. If no
-/// triangle is met, tests whether a piece lies inside, unless its side is known from before and it has met no triangle since.
-/// Pieces that may touch the mesh are tested alike and reported apart; they are never inside.
-/// Keeps its buffers between calls.
+/// pieces where the boxes meet triangles, and hands the candidates of the pieces to the narrow phase. Pieces that may
+/// touch the mesh are tested alike and reported apart. Keeps its buffers between calls.
+///
+/// If there is no contact, or none but intended, tests whether a piece lies inside. Leaves out pieces that may touch the
+/// mesh, and those of links that touch as intended. The side of a piece is kept from sweep to sweep as long as its volumes
+/// meet no triangle, or the narrow phase rules out all that the tool met.
 class SweepChecker {
  public:
   /// @returns valid until the next call

@@ -21,8 +21,9 @@ struct QueuedPose {
   WarningMonitor::Checkpoint checkpoint;
 };
 
-/// Holds the work of the guard's thread: poses in their order, and tasks to run between two sweeps. One thread takes,
-/// any thread may call the other functions; none of them holds up a taking thread of higher priority.
+/// Holds the work of the guard's thread: poses in their order, and tasks to run between two batches of poses. One thread
+/// takes; any thread may call the other functions. While one of these keeps the taking thread waiting, it has at least
+/// that thread's priority (Mutex).
 class WorkQueue {
  public:
   WorkQueue() { sem_init(&signal_, /*pshared=*/0, 0); }

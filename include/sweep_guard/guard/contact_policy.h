@@ -15,20 +15,17 @@ namespace sweep_guard_core {
 
 class IntendedTriangles;
 
-/// Decides what contact of one tool with one workpiece means. It answers two questions:
+/// Says which contact of one body of the tool with one workpiece is no warning:
 ///
-///     of a piece:                                 allows(piece)
-///     of a triangle that this piece may meet:     trianglesIntendedFor(piece, ...).contains(triangle, ...)
+///     allowed, wherever and however deep:                          allows(piece)
+///     intended, on triangles of an Intention and up to its depth:  trianglesIntendedFor(piece, ...).contains(triangle, ...)
 ///
-/// Predictions and planes leave out a piece that is allowed; a measured sweep tests it, too, and reports it apart. Planes
-/// stand for an intended triangle from its intendedDepth() on.
-///
-/// Allowed contact is no warning, wherever and however deep it is. Intended contact is no warning on the triangles of an
-/// Intention and up to its depth. Any other contact is forbidden. An attached workpiece is part of the tool, so no policy
-/// concerns it.
+/// All other contact is warned of. A measured sweep tests allowed and intended contact, too, and reports each apart.
+/// Predictions and planes leave out allowed pieces. Predictions leave out intended triangles as well; a plane stands for
+/// such a triangle from its intendedDepth() on. An attached workpiece is a link of the tool, and not tested against it.
 class ContactPolicy {
  public:
-  /// Forbids all contact.
+  /// Allows and intends no contact.
   ContactPolicy() = default;
   /// @param tool        must outlive this
   /// @param allowed     null: no pair is
@@ -45,8 +42,7 @@ class ContactPolicy {
   /// @param sub_motions_M  of one motion; at least one
   /// @param margin         the tool is grown by this [m], >= 0
   IntendedTriangles trianglesIntendedFor(size_t piece, const std::vector<Motion>& sub_motions_M, double margin) const;
-  /// Returns how far the link of a piece may reach behind a triangle [m]; 0: it is not meant to touch it. Does not say
-  /// whether the link is deeper.
+  /// Returns how far the link of a piece may reach behind a triangle [m]; 0: the link is not meant to touch it.
   double intendedDepth(size_t piece, std::uint32_t triangle) const;
   /// Returns the regions of the workpiece that the link of a piece is meant to touch.
   std::vector<const Intention*> intentionsFor(size_t piece) const;

@@ -71,12 +71,13 @@ class FrameMotionStore {
   /// Adds poses of a frame that nobody predicts and that goes_on, in any order; of several at one time, the first counts. Kept is
   /// what forgetBefore() leaves: at most 8192 poses, of which the oldest but one goes first.
   void add(const std::string& frame, const std::vector<FramePose>& poses);
-  /// Replaces what was added of a frame from the first of these poses on: it did not move there. Up to then it is where it was.
+  /// Replaces the added poses of a frame from the first of these on. The frame did not move there; up to then it is in its old
+  /// place.
   /// @param placed  at least one; stamps ascend
   void placeAnew(const std::string& frame, std::vector<FramePose> placed);
   /// Forgets what add() added of frames other than these.
   void keepOnly(const std::set<std::string>& frames);
-  /// Forgets, as poses are added, those of before the sweep of a pose of the tool, but for what velocity() needs.
+  /// Lets add() forget poses from before the sweep of a pose of the tool, except what velocity() needs.
   /// @param pose   its stamp
   /// @param known  what was known of the frames at that sweep
   void forgetBefore(Time pose, const FrameMotions& known);

@@ -78,10 +78,9 @@ class Guard {
   void takeBack() noexcept;
 
   /// Predicts the path after the newest pose and tests it. Frames of workpieces are taken to stay where they are, but for
-  /// those of follow(). The
-  /// newest pose must have been given to sweep(), not to pass(). The path is empty until PosePredictor knows a motion.
-  /// The whole prediction is empty, without a stamp, before the first sweep and if `age` exceeds the reserve of the
-  /// horizon: the number of sweeps would grow with the age. Fails and throws as sweep() does.
+  /// those of follow(). The newest pose must have been given to sweep(), not to pass(). The path is empty until
+  /// PosePredictor knows a motion. The whole prediction is empty, without a stamp, before the first sweep and if `age`
+  /// exceeds the reserve of the horizon: the number of sweeps would grow with the age. Fails and throws as sweep() does.
   ///
   /// If `cycle` leaves too little time after sweep(), sweeps beyond the reflex interval are fewer and coarser: they may
   /// report contacts that finer ones would rule out, but miss none.
@@ -111,9 +110,10 @@ class Guard {
   bool isWithin(double distance, const Workpiece& workpiece);
 
   /// Sets where contact is meant, from the next sweep and the next prediction on. Contact as intended is reported apart
-  /// (SweepResult::intended) and is not predicted. Once a link has touched as intended, its contacts with that workpiece
-  /// are predicted where the predicted path itself meets it, not where it is merely probable, until the link is 10 mm
-  /// away from the regions. Without narrow phase (SweepOptions::fine), nothing is intended.
+  /// (SweepResult::intended) and is not predicted. After a link has touched a workpiece as intended, other contact of the
+  /// two is predicted only where the predicted path itself meets the workpiece, not where it is merely probable. That ends
+  /// once the link is 10 mm away from the box around the regions that it may touch, or may touch none any more. Without
+  /// narrow phase (SweepOptions::fine), nothing is intended.
   /// @param intentions  not null
   void intend(std::shared_ptr<const Intentions> intentions);
   /// Returns where contact is meant: nowhere without narrow phase.
@@ -169,7 +169,7 @@ class Guard {
 class PredictionRun {
  public:
   bool done() const;  ///< the prediction is complete
-  /// Tests one sweep of one body against one workpiece, or a half of a sweep. Not if done().
+  /// Begins the test of one body against one workpiece, or tests one sweep of it, or a half of a sweep. Not if done().
   void step();
 
  private:

@@ -20,7 +20,7 @@ struct GuardOptions {
   SweepOptions sweep;
   PredictorOptions predictor;
   HorizonOptions horizon;
-  /// Contacts so many standard deviations off the predicted path are not looked for, which saves time: their probability
+  /// Contacts at more standard deviations off the predicted path are not looked for, which saves time: their probability
   /// is 0. From 0, where only contacts of the path itself are found, to 3.09; not checked. See deviationsAt().
   double max_deviations = 3.09;
   /// Contact of these pairs is reported apart (SweepResult::allowed), is not predicted, and keeps nothing from being clear.

@@ -59,10 +59,10 @@ struct PoseWithFrames {
   /// What jumped on the way to this pose, in words, as in "joint 'elbow' jumped: 130 rad/s": the motion does not go on from
   /// there. Empty: nothing did.
   std::string jump = {};
-  /// Of this pose: what is not moved to it from the pose before, because a static transform has changed. The motion goes on
-  /// from here for these, and does not come here for the others. Poses that are placed anew repeat a way in no time.
+  /// What did not move to this pose from the one before, because a static transform has changed: its motion goes on from
+  /// here. For all else this pose is no part of the motion. Poses that are placed anew repeat a path in no time.
   std::optional<PlacedAnew> anew = {};
-  /// Of those of X_WM that are followed, see placeFollowed(), or were placed anew since the pose before.
+  /// Of the frames of X_WM that are followed, see placeFollowed(), or were placed anew since the pose before.
   std::map<std::string, FrameDrift> drifts = {};
 };
 

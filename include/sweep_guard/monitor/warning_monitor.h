@@ -205,12 +205,12 @@ class WarningMonitor {
 
   std::optional<std::string> disabledBy() const;  ///< empty: enabled
 
-  /// Returns whether a pose received at this checkpoint is still to be swept: the guard is enabled, was not
-  /// restarted, and does not end.
+  /// Returns whether a sweep to a pose received at this checkpoint, or a prediction from it, counts: the guard is enabled,
+  /// was not restarted since, and does not end.
   bool counts(const Checkpoint& checkpoint) const;
 
-  /// Returns whether what a pose received at this checkpoint meets is still to be reported: it counts(), or time has jumped
-  /// since and nothing else has restarted the monitor.
+  /// Returns whether a pose received at this checkpoint is still to be swept: it counts(), or nothing but timeJumped() has
+  /// restarted the monitor since. In the second case only a contact is taken from the report.
   bool isToBeSwept(const Checkpoint& checkpoint) const;
 
   /// Sets the limits of later warnings; does not check them.

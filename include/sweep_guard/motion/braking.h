@@ -19,7 +19,7 @@ inline bool operator!=(const Twist& a, const Twist& b) { return !(a == b); }
 /// What the robot can do, and how close it may come.
 struct BrakingLimits {
   double deceleration = 1.0;    ///< that the robot reaches at any point of the tool when it is stopped [m/s^2], > 0
-  double reaction_time = 0.05;  ///< command period + age of planes and pose + the robot's own lag [s], > 0
+  double reaction_time = 0.05;  ///< command period + age of planes or pose, the older + the robot's own lag [s], > 0
   double standoff = 0.002;      ///< distance from a plane at which the closing speed is 0 [m], >= 0
   double tool_radius = 0.1;     ///< largest distance of a tool point from the origin of the tool frame [m], >= 0
 };

@@ -25,8 +25,8 @@ class CommandGaps {
   /// @param command  not received before that of the last call
   void received(const Timestamps& command);
 
-  /// Returns that commands come, but more rarely than `timeout`, with both times; empty if two of the newest intervals do
-  /// not exceed it, or if commands have stopped.
+  /// Returns that commands come, but more rarely than `timeout`, with both times. Empty unless at least two of the newest
+  /// intervals exceed it; empty if commands have stopped (kPause).
   std::string rarity(SteadyTime now) const;
 
   /// Returns why the newest command is too old; only after received().

@@ -87,9 +87,9 @@ struct PermissionDecision {
 /// | planes that are incomplete or of an unknown tool | kStop |
 /// | otherwise | kLimited |
 ///
-/// Escape needs an `escape_speed`, a warning, a pose and complete planes of a known tool that are not older than
-/// `escape_plane_age` on both clocks, and reasons none of which is kNoMesh, kMeshInvalid, kTimeJump, kDetectorFault or
-/// kNotSwept: with these, the planes are not those of all surfaces. Silence keeps the reasons of the last warning.
+/// Escape needs an `escape_speed`, a warning, a pose and complete planes of a known tool, both not older than
+/// `escape_plane_age` on either clock, and no reason of kSurfacesMissing: with one of these, the planes are not those of
+/// all surfaces. While the guard is silent, the reasons of its last warning count.
 /// @param command  newest one; without a stamp of its own, that of its receipt
 PermissionDecision decidePermission(const MotionInputs& inputs, const std::optional<Timestamps>& command,
                                     const Instant& now, const MotionGuardOptions& options);

@@ -16,9 +16,10 @@ double secondsBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, do
 /// as fast as it can when it is released.
 ///
 /// A tool that follows at the largest speed lags by the dead time, the time constant, the period of the poses that are sent
-/// and the age of its own pose: that is the whole reach. A tool that moved less than a tenth of what it was behind within the
-/// dead time and two time constants, as far as its pose shows that yet, does not follow. The reach is then the time constant
-/// alone, and grows by what the tool moves from there. Reaches are in seconds at the largest speed and turn rate.
+/// and the age of its own pose: that is the whole reach. A tool does not follow if it moves by less than a tenth of what it
+/// was behind, in the dead time and two time constants, and the period and age until its pose shows that. The reach is then
+/// the time constant alone, and grows by what the tool moves from there. Reaches are in seconds at the largest speed and
+/// turn rate.
 class PoseLeash {
  public:
   struct Options {

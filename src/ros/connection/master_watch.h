@@ -12,12 +12,12 @@
 
 namespace sweep_guard_ros {
 
-/// Notices that the ROS master was started anew, which then knows neither this node nor its parameters, and registers
-/// the topics and the services of the process, and sets the parameters of this node there again. Of the services, those that
-/// nodelets of other packages advertise are not known. Connections that exist are kept:
-/// poses and meshes arrive as before, also from nodes that the new master does not know. A publisher that the master
-/// knows and that is not connected is connected: roscpp gives up for good where a stream of bytes makes no sense. Asks the
-/// master once a second, in a thread of its own.
+/// Notices that the ROS master was started anew, which then knows neither this node nor its parameters. Registers the topics
+/// and the services of the process there again, and sets the parameters of this node. Services that nodelets of other
+/// packages advertise are left out: roscpp has no list of them. Connections that exist are kept: poses and meshes arrive as
+/// before, also from nodes that the new master does not know. A publisher that the master knows and that is not connected is
+/// connected: roscpp gives up for good where a stream of bytes makes no sense. Asks the master once a second, in a thread
+/// that others may use.
 class MasterWatch {
  public:
   /// @param settings  returns the private parameters as they are now. Any thread

@@ -10,10 +10,10 @@
 
 namespace sweep_guard_ros {
 
-/// Connects the inputs of a node anew to publishers that were out of reach. Without it they stay silent after a broken link
-/// is whole again, for up to as long as it was broken: that is how long TCP waits until it sends again. The same where a
-/// publisher answers, but a connection to it stays down: roscpp tries again after up to 20 s, and never where the connection
-/// broke while it was made. Looks only while an input may be silent.
+/// Connects the inputs of a node anew to publishers that were out of reach. Without this, they stay silent after a broken link
+/// is whole again, for up to as long as it was broken: so long TCP waits until it sends again. Also connects a publisher anew
+/// that answers while a connection to it stays down: roscpp tries again after up to 20 s, and never if the connection broke
+/// while it was made. Looks only while an input may be silent.
 class PeerWatch {
  public:
   /// @param thread               looks and connects; must be stopped first

@@ -11,7 +11,8 @@
 
 namespace sweep_guard_ros {
 
-/// Acknowledges warnings of workpieces that the tool is near, and ends acknowledgements of those that the tool has left. The thread of the guard.
+/// Acknowledges warnings of workpieces that the tool is near, and ends acknowledgements of those that the tool has left. For
+/// the guard's thread only.
 class Acknowledgements {
  public:
   /// All must outlive this.
@@ -28,7 +29,7 @@ class Acknowledgements {
   std::string add(const std::string& id, const sweep_guard_core::Workpieces& workpieces,
                   const sweep_guard_core::QueryOrigin& origin);
 
-  /// Ends acknowledgements of workpieces that the tool is not near, or is not known to be near. Returns whether there was one.
+  /// Ends acknowledgements of workpieces that the tool is not near, or not known to be near. Returns whether there was one.
   bool endWhereFar(const sweep_guard_core::Workpieces& workpieces, const sweep_guard_core::QueryOrigin& origin);
 
  private:

@@ -16,7 +16,7 @@
 
 namespace sweep_guard_ros {
 
-/// Asks a second detector every Nth query of the guard's, whose thread runs when nothing else does. If they
+/// Asks a second detector about every Nth query of the guard, in a thread that runs when nothing else does. If both
 /// disagree, reports it to the monitor and logs the query. Publishes nothing: the watchdog does soon.
 class CrossCheckThread {
  public:

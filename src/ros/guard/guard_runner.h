@@ -11,7 +11,7 @@ namespace sweep_guard_ros {
 /// Returns parameters with a detector that this machine can make; logs if it is another one.
 Parameters withAvailableDetector(Parameters parameters);
 
-/// Sweeps and predicts, and cross-checks the detector.
+/// Owns the thread that sweeps and predicts, and the cross-check of its detector.
 class GuardRunner {
  public:
   /// @throws sweep_guard_core::InvalidInput if a parameter is refused

@@ -14,11 +14,14 @@
 
 namespace sweep_guard_ros {
 
-/// Runs the guard in one thread: sweeps every queued pose, sweeps a backlog of poses as one motion, predicts from the
-/// newest pose, and runs the queued tasks between two sweeps. A pose that comes during a prediction is swept between two
-/// of its sweeps, for up to 50 ms; then the prediction ends first. Predictions begin when PredictionPace says, but one
-/// begins every cycle: a pose that is not predicted from is still swept. One begins at once after the sweep of other triangles. A
-/// frame that is known further than at the newest pose is swept against at once.
+/// Runs the guard in one thread: sweeps to every queued pose, or passes a pose if another one waits, so that a backlog is
+/// swept as one motion. Without poses, sweeps against frames that are known further than before.
+///
+/// Predicts from the newest swept pose: if no pose waits, once PredictionPace says so, and at once if the workpieces have
+/// other triangles; in any case after a cycle. Poses that come during a prediction are swept between its steps until 50 ms
+/// after its begin; later ones wait for its end.
+///
+/// Runs queued tasks between two batches of poses, or two tries of a pose that fails; never during a prediction.
 class GuardThread {
  public:
   /// @throws sweep_guard_core::InvalidInput if a parameter is refused
@@ -33,8 +36,8 @@ class GuardThread {
 
   /// Sets other parameters for the guard and the node. Returns when they are set. Any thread.
   /// @throws sweep_guard_core::DeviceError if a new detector cannot be created or fails its test; then nothing is set
-  /// @throws sweep_guard_core::Error if a sweep lasts longer than 0.5 s, other parameters were set meanwhile, or the guard is
-  ///     shutting down; then nothing is set, also later
+  /// @throws sweep_guard_core::Error if the thread does not begin with it within 0.5 s, other parameters were set or the
+  ///     tool was exchanged meanwhile, too many tasks wait, or the guard is shutting down; then nothing is set, also later
   void apply(const std::shared_ptr<const Parameters>& next);
   /// Exchanges the tool, and forgets the poses and what rests on them, as reset() does: the warning is UNKNOWN until two
   /// other poses have arrived. Returns when that is done. Any thread.

@@ -18,7 +18,7 @@
 namespace sweep_guard_ros {
 
 /// Turns positions of joints into poses of the bodies of an articulated tool. Between two states, it gives as many poses as
-/// keep every body within 0.5 mm of how Motion joins them. One thread.
+/// keep every body within 0.5 mm of how Motion joins them, at most 100; the poses tell the deviation bound. One thread.
 class ArticulatedTool {
  public:
   /// @param live  with an articulated tool; its bodies may change, its joints do not

@@ -17,8 +17,8 @@ namespace sweep_guard_ros {
 /// Finds frames that several nodes publish in turn at different places: a lookup mixes both, and gives places where
 /// nothing is. Only transforms that change count; static ones are left out.
 ///
-/// Nodes that place a frame alike may share it, and one may take it over from another: node A has to publish, then node B, then A
-/// again within about 1 s, and both have to be apart by more than 1 mm or 1 mrad at one stamp.
+/// Nodes that place a frame alike may share it, and one may take it over from another. It is a conflict if node A publishes, then
+/// node B, then A again within about 1 s, and both place it on different frames, or more than 1 mm or 1 mrad apart at one stamp.
 class FramePublishers {
  public:
   struct Transform {

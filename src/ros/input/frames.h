@@ -38,8 +38,8 @@ struct NewestPose {
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
 };
 
-/// Listens to /tf and /tf_static, and looks up poses of tf frames. Never interpolates beyond the buffer: a transform is
-/// taken at its stamp or not at all. A quaternion is made one of unit length where it is almost, as that of a pose. Any thread.
+/// Listens to /tf and /tf_static, and looks up poses of tf frames. Never extrapolates: a pose that lies beyond the known
+/// transforms is missing. Normalizes quaternions that are almost of unit length, as in poses. Any thread.
 ///
 /// A change of a static transform that counts, see use(), is held back until applyStaticChanges(): until then, frames are where
 /// they were before.

@@ -25,8 +25,8 @@ struct MovingFramesDependencies {
   sweep_guard_core::InputRecord& record;  ///< of errors
 };
 
-/// Places the frames of the workpieces. One that rests is where it is. One that moves is followed: sampled at the stamps of poses,
-/// and whenever its newest pose changes, so that no pose waits for a transform that comes late or seldom.
+/// Places the frames of the workpieces. Returns where a frame is that rests. Follows a frame that moves: samples it at the stamps
+/// of poses, and whenever its newest pose changes, so that no pose waits for a transform that comes late or seldom.
 class MovingFrames {
  public:
   MovingFrames(const std::string& fixed_frame, const MovingFramesDependencies& dependencies)

@@ -53,8 +53,8 @@ class PoseInput {
   /// Applies static transforms that have changed though no pose has come for `timing/pose_timeout`. Any thread.
   void applyLateChanges();
 
-  /// Takes a tool from tf that no transform moves for one at rest: adds its pose of now, at timing/min_rate at least, by either clock.
-  /// To be called often, by one thread.
+  /// Adds the pose of now of a tool from tf that no transform moves: it is at rest. Does so once in a cycle (`timing/min_rate`), or
+  /// twice in `timing/pose_timeout` if that is more often, by either clock. To be called often, by one thread.
   void addRestingPose();
 
  private:

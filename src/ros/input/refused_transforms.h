@@ -8,8 +8,8 @@
 
 namespace sweep_guard_ros {
 
-/// Keeps why the newest transform to a frame was refused, until a good one comes: of 1000 frames at most. One more counts for good,
-/// whoever asks: it may be of a frame that counts. Any thread.
+/// Keeps why the newest transform to a frame was refused, until a good one comes: of 1000 frames at most. A refusal of yet another
+/// frame is kept for good, and returned to all who ask: that frame may count for them. Any thread.
 class RefusedTransforms {
  public:
   /// @param text  frame, publisher, and what is wrong

@@ -15,9 +15,10 @@ class Worker {
  public:
   struct Job {
     std::function<void()> run;
-    std::function<void()> drop;  ///< called instead if there is no room, before the job that needs the room is pushed
-    size_t bytes;                ///< held until the job runs
-    bool replaceable = false;    ///< later jobs bring newer data: takes no room from jobs that are not replaceable
+    /// Called instead if there is no room, before the job that needs the room is pushed; also after `run` has thrown.
+    std::function<void()> drop;
+    size_t bytes;              ///< held until the job runs
+    bool replaceable = false;  ///< later jobs bring newer data: takes no room from jobs that are not replaceable
   };
 
   /// @param max_bytes  of all jobs that wait; the newest may always wait

@@ -18,13 +18,13 @@ namespace sweep_guard_ros {
 /// Converts the surfaces of all bodies, without stamp, run and revision. Takes seconds for ten thousand corners.
 boost::shared_ptr<sweep_guard::ToolSurface> surfaceMsg(const Parameters& parameters);
 
-/// Publishes what the guards of other tools need: `~surface`, and `~bodies` for each pose, at most at 200 Hz, and for each
-/// prediction. One thread.
+/// Publishes what the guards of other tools need: `~surface`, latched; and, if there is a subscriber, `~bodies` for each pose,
+/// at most at 200 Hz, and for each prediction. One thread.
 class BodiesPublisher {
  public:
   BodiesPublisher(ros::NodeHandle private_node, const LiveParameters& parameters);
 
-  /// Publishes the surface of another tool.
+  /// Publishes the surface of a tool in place of the one before.
   /// @param surface  from surfaceMsg(), of these bodies
   void setTool(const std::vector<sweep_guard_core::Tool>& bodies,
                const boost::shared_ptr<sweep_guard::ToolSurface>& surface);

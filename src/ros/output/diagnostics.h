@@ -22,8 +22,8 @@ void reportDetector(const sweep_guard_core::SweepStatistics::Summary& statistics
 void reportTool(const Parameters& parameters, diagnostic_updater::DiagnosticStatusWrapper& status);
 
 /// Publishes on /diagnostics the warning, each input (source, publishers, rate, age, last error), the tool, the
-/// workpieces, which contact is allowed, the detector and its deadlines, the prediction, the time in each stage, the
-/// changed parameters, and the memory of the process.
+/// workpieces, which contact is allowed, other tools, the detector and its deadlines, the prediction, the time in each
+/// stage, the changed parameters, and the memory of the process.
 class Diagnostics {
  public:
   Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, GuardState& state, const Inputs& inputs,

@@ -10,7 +10,8 @@ class KnownSurfaces {
  public:
   explicit KnownSurfaces(const sweep_guard_core::WarningMonitor& monitor) : monitor_(monitor) {}
 
-  /// Returns whether there is a workpiece, and each was tested at the pose with all its updates.
+  /// Returns whether there is a workpiece, each was tested at the pose with all its updates, and the warning has no reason
+  /// of kSurfacesMissing.
   /// @param report    of the sweep to the pose; the monitor must have it already
   /// @param unplaced  workpieces that were left out
   bool complete(const sweep_guard_core::SweepReport& report, const sweep_guard_core::Workpieces& unplaced);

@@ -8,7 +8,8 @@
 
 namespace sweep_guard_ros {
 
-/// Publishes the results of every sweep and every prediction: `~contacts`, `~prediction` and `~time_to_collision`.
+/// Publishes the results of every sweep and every prediction, each where there is a subscriber: `~contacts`, `~prediction` and
+/// `~time_to_collision`.
 class ResultPublisher {
  public:
   ResultPublisher(ros::NodeHandle private_node, const LiveParameters& parameters);

@@ -12,8 +12,8 @@
 
 namespace sweep_guard_ros {
 
-/// Keeps the newest results of the guard and publishes them for displays: `~markers`, `~view` and, once and for each
-/// other tool, `~tool`. One thread reports results, another one publishes.
+/// Keeps the newest results of the guard and publishes them for displays: `~markers`, `~view`, and `~tool`, latched. One
+/// thread reports results, another one publishes.
 class ScenePublisher {
  public:
   ScenePublisher(ros::NodeHandle private_node, const LiveParameters& parameters,
@@ -24,7 +24,7 @@ class ScenePublisher {
   void predicted(const sweep_guard_core::PoseWithFrames& from,
                  std::shared_ptr<const sweep_guard_core::Prediction> prediction);
   void clear();
-  void setTool(const std::vector<sweep_guard_core::Tool>& bodies);  ///< publishes another `~tool`
+  void setTool(const std::vector<sweep_guard_core::Tool>& bodies);  ///< publishes `~tool` anew
 
   void publishMarkers();     ///< publishes if there is a subscriber
   void publishView() const;  ///< publishes if there is a subscriber

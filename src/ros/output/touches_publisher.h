@@ -19,7 +19,7 @@ class TouchesPublisher {
 
   /// Counts a sweep. The thread that sweeps.
   void swept(const sweep_guard_core::SweepReport& report, const sweep_guard_core::Workpieces& workpieces);
-  void publishIfChanged();  ///< publishes if there is a subscriber and something has changed. Any thread
+  void publishIfChanged();  ///< publishes if a count has changed since. Any thread
   void reset();             ///< restarts the counts, and publishes that. Any thread
 
  private:

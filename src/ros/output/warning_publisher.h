@@ -17,11 +17,11 @@ class WarningPublisher {
   WarningPublisher(ros::NodeHandle private_node, const LiveParameters& parameters,
                    const sweep_guard_core::WarningMonitor& monitor);
 
-  void publishIfChanged();   ///< publishes if level, reasons, `held` or `acknowledged` have changed
+  void publishIfChanged();   ///< publishes if level, reasons, `held`, `acknowledged` or `intended` have changed
   void publishIfDue();       ///< publishes on change, and otherwise often enough for 20 Hz
   void publishFinal();       ///< publishes the warning and both flags, and waits until they are sent, up to 0.2 s
-  void publishReflex();      ///< publishes the flag as it is now
-  void publishConsidered();  ///< publishes the flag as it is now
+  void publishReflex();      ///< publishes the flag as it is now, and the warning if it has changed
+  void publishConsidered();  ///< the same for the other flag
 
  private:
   using Flag = sweep_guard::Warning::_reflex_type sweep_guard::Warning::*;

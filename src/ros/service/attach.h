@@ -15,7 +15,8 @@
 
 namespace sweep_guard_ros {
 
-/// Serves `~attach`: a workpiece that the tool holds becomes part of the tool, and is given back. A call that finds 4 others waiting is answered BUSY.
+/// Serves `~attach`: makes a workpiece that the tool holds part of the tool, or gives it back. At most 4 calls wait while one
+/// runs; any more are answered BUSY.
 class AttachService {
  public:
   /// Returns the newest swept pose. The future throws sweep_guard_core::Error if there is none, or it is stale.

@@ -50,9 +50,9 @@ struct PathQuestion {
   GoOn go_on;
 };
 
-/// Sweeps paths against the workpieces as they are now, for the services that ask. Has a thread of its own, and detectors,
-/// each of which is tested when it is made. Works on a snapshot of the meshes, so it never delays the guard. A question is
-/// given up at its deadline, which counts from the arrival of the call.
+/// Sweeps paths against the workpieces as they are now, for the services that ask. Has a thread and detectors of its own; each
+/// of these is tested when it is made (self_test). Works on a snapshot of the meshes, so the guard does not wait for it. A
+/// question is given up at its deadline, which counts from the arrival of the call.
 class PathTests {
  public:
   /// @param frame_motions  of frames that tf does not have; null: there are none
@@ -78,7 +78,7 @@ class PathTests {
   /// @throws sweep_guard_core::InvalidInput if one does not exist, or there is no workpiece at all
   sweep_guard_core::Workpieces selected(const PathQuestion& question, const std::vector<std::string>& ids) const;
 
-  /// Returns the transform from a frame to that of a mesh, for which it waits. The link of another tool is where it was
+  /// Returns the transform from a frame to that of a mesh. Waits up to 0.1 s for it. The link of another tool is where it was
   /// measured last.
   /// @throws sweep_guard_core::Error if there is none
   Eigen::Isometry3d transform(const std::string& mesh_frame, const std_msgs::Header& header) const;
@@ -143,8 +143,8 @@ bool answerPath(Response& response, Check check) {
   return true;
 }
 
-/// Serves path tests. A call that finds 4 others waiting is answered BUSY at once. A call waits and runs for no longer than
-/// its deadline.
+/// Serves path tests. At most 4 calls wait while one runs; any more are answered BUSY at once. A path is given up at its
+/// deadline. The answer comes later if calls of other services keep the thread until then.
 class PathService {
  public:
   /// @param tests  must outlive it

@@ -23,7 +23,7 @@ sweep_guard::Prediction predictionMsg(const sweep_guard_core::Prediction& predic
 
 /// Serves `~predict`: predicts the motion and its contacts for any horizon. The guard's thread predicts only the poses,
 /// in microseconds between two sweeps. The path is tested here, with a detector of its own and on a snapshot of the meshes,
-/// so the service never delays the guard. A call that finds 4 others waiting is answered BUSY.
+/// so the guard does not wait for a test. At most 4 calls wait while one runs; any more are answered BUSY.
 class PredictService {
  public:
   struct Motion {
@@ -37,7 +37,7 @@ class PredictService {
   PredictService(const ros::NodeHandle& private_node, ServiceThreads& threads, const LiveParameters& live,
                  const sweep_guard_core::WorkpieceStore& workpieces, PredictMotion predict_motion);
 
-  void stop() { stopping_ = true; }  ///< gives up a running test soon. Any thread
+  void stop() { stopping_ = true; }  ///< tests the rest of each path coarsely: a running call ends soon. Any thread
 
  private:
   bool onCall(sweep_guard::Predict::Request& request, sweep_guard::Predict::Response& response);
