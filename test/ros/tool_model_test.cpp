@@ -180,6 +180,32 @@ TEST(ToolModelTest, JointsThatMimicEachOtherAreRefusedByTheirNames) {
   EXPECT_TRUE(has(refusalOf({{"a", "none"}}), "joint 'a' mimics 'none', which does not exist"));
 }
 
+// A crank leads a rod, which leads a finger; a sensor mimics the crank, and nothing that is right.
+TEST(ToolModelTest, KnowsTheJointsBetweenAFollowerAndWhatItFollows) {
+  const std::string limits = "<axis xyz='0 0 1'/><limit lower='0' upper='1' effort='1' velocity='1'/>";
+  const auto mimic = [&](const std::string& leader, const std::string& how) {
+    return limits + "<mimic joint='" + leader + "' " + how + "/>";
+  };
+  const std::string urdf =
+      robot(link("hand") + link("crank_link") + link("rod_link") + link("finger_link", kBall) + link("sensor_link") +
+            link("loop_link") + link("lost_link") + joint("crank", "prismatic", "hand", "crank_link", limits) +
+            joint("rod", "prismatic", "hand", "rod_link", mimic("crank", "multiplier='2' offset='0.125'")) +
+            joint("finger", "prismatic", "hand", "finger_link", mimic("rod", "multiplier='-3'")) +
+            joint("sensor", "revolute", "hand", "sensor_link", mimic("crank", "offset='1'")) +
+            joint("loop", "revolute", "hand", "loop_link", mimic("loop", "")) +
+            joint("lost", "revolute", "hand", "lost_link", mimic("none", "")));
+  ToolModelOptions options = toolOf("hand", {"finger_link"});
+  const auto model = loadToolModel(urdf, options).robot;
+  std::map<std::string, double> positions;
+  for (const auto& [name, joint] : model->robot.tree.mimics()) positions[name] = joint.at({0.5});
+  EXPECT_EQ(positions, (std::map<std::string, double>{{"rod", 1.125}, {"finger", -3.375}, {"sensor", 1.5}}));
+  EXPECT_EQ(model->beside.elsewhere, (std::set<std::string>{"loop", "lost"}));
+  for (const std::string name : {"rod", "finger", "sensor"}) {
+    options.joints = {{name, 0.1}};
+    EXPECT_EQ(refusal(urdf, options), "joint '" + name + "' mimics 'crank': set that joint in tool/joints");
+  }
+}
+
 // A joint above the tool moves the whole tool.
 // A lift carries a torso, which carries a head, a crank that the lift mimics, and a hand, the tool.
 TEST(ToolModelTest, KnowsWhatTheOtherJointsOfTheRobotMove) {
