@@ -313,15 +313,82 @@ TEST_F(VisualGeometryTest, ALinkThatIsAPointIsLeftOutUnlessItIsListed) {
   EXPECT_TRUE(has(refusal(urdf, options), "link 'b': its box's size in "));
 }
 
-TEST_F(VisualGeometryTest, IsCheckedOnlyWhereItMayBeUsed) {
-  const std::string two = robot(
-      link("a", kBall) + link("b", "<visual><geometry><sphere radius='1'/><sphere radius='2'/></geometry></visual>") +
-      joint("ab", "fixed", "a", "b"));
-  ToolModelOptions options = toolOf("a", {"a"});
-  EXPECT_EQ(refusal(two, options), "");
-  for (const LinkGeometry geometry : {LinkGeometry::kEither, LinkGeometry::kVisual}) {
-    options.geometry = geometry;
-    EXPECT_TRUE(has(refusal(two, options), "link 'b': a visual must have one geometry of one shape"));
+// The first two are read by urdfdom as far as they go, the others not at all.
+const std::vector<std::string> kBadShapes = {"<sphere radius='0.1'/><sphere radius='2'/>",
+                                             "<sphere radius='0.1'/></geometry><geometry><box size='1 1 1'/>",
+                                             "<capsule radius='1' length='1'/>",
+                                             "<sphere radius='wide'/>",
+                                             "<mesh scale='1 1 1'/>",
+                                             ""};
+
+ToolModelOptions optionsOf(const std::vector<std::string>& links, LinkGeometry geometry) {
+  ToolModelOptions options = toolOf("a", links);
+  options.geometry = geometry;
+  return options;
+}
+
+TEST_F(VisualGeometryTest, GeometryThatIsNotUsedStopsNothing) {
+  const std::string good_visual = visual("<sphere radius='0.1'/>");
+  const std::string bad_color =
+      "<visual><geometry><sphere radius='1'/></geometry><material name='grey'><color rgba='1 1'/></material></visual>";
+  for (const std::string& shape : kBadShapes) {
+    SCOPED_TRACE(shape);
+    const std::string of_visual = robot(link("a", kBall + visual(shape) + bad_color));
+    EXPECT_EQ(refusal(of_visual, optionsOf({}, LinkGeometry::kCollision)), "");
+    EXPECT_EQ(refusal(of_visual, optionsOf({}, LinkGeometry::kEither)), "");
+    const std::string of_collision = robot(link("a", collision(shape) + good_visual));
+    EXPECT_EQ(refusal(of_collision, optionsOf({}, LinkGeometry::kVisual)), "");
+  }
+}
+
+TEST_F(VisualGeometryTest, GeometryThatIsUsedIsChecked) {
+  for (const std::string& shape : kBadShapes) {
+    SCOPED_TRACE(shape);
+    const std::string of_visual = robot(link("a", visual(shape)));
+    EXPECT_NE(refusal(of_visual, optionsOf({}, LinkGeometry::kVisual)), "");
+    EXPECT_NE(refusal(of_visual, optionsOf({}, LinkGeometry::kEither)), "");
+    const std::string of_collision = robot(link("a", collision(shape) + visual("<sphere radius='0.1'/>")));
+    EXPECT_NE(refusal(of_collision, optionsOf({}, LinkGeometry::kCollision)), "");
+    EXPECT_NE(refusal(of_collision, optionsOf({}, LinkGeometry::kEither)), "");
+  }
+}
+
+TEST_F(VisualGeometryTest, SeveralGeometriesStopOnlyWhereTheLinkIsOfTheTool) {
+  for (const std::string& shape : {kBadShapes[0], kBadShapes[1]}) {
+    for (const LinkGeometry geometry : {LinkGeometry::kCollision, LinkGeometry::kEither, LinkGeometry::kVisual}) {
+      const bool visible = geometry == LinkGeometry::kVisual;
+      const std::string urdf =
+          robot(link("a", kBall + visual("<sphere radius='1'/>")) +
+                link("b", visible ? visual(shape) : collision(shape)) + joint("ab", "fixed", "a", "b"));
+      EXPECT_EQ(refusal(urdf, optionsOf({"a"}, geometry)), "");
+      EXPECT_EQ(refusal(urdf, optionsOf({"a", "b"}, geometry)),
+                std::string("link 'b': a ") + (visible ? "visual" : "collision") +
+                    " must have one geometry of one shape; give each shape its own");
+    }
+  }
+}
+
+// Where the first visual is left out with its material, urdfdom would not know the color of the second one.
+TEST_F(VisualGeometryTest, ColorsDoNotMatter) {
+  const auto colored = [](const std::string& material) {
+    return "<visual><geometry><sphere radius='0.1'/></geometry><material " + material + "</visual>";
+  };
+  const std::string defined = "name='grey'><color rgba='1 1 1 1'/></material>";
+  for (const std::string material :
+       {"name='grey'/>", "name='nowhere'/>", "name='red'><color rgba='1 0'/></material>"}) {
+    const std::string urdf =
+        robot(link("a", kBall + colored(defined)) + link("b", colored(material)) + joint("ab", "fixed", "a", "b"));
+    EXPECT_EQ(refusal(urdf, optionsOf({}, LinkGeometry::kEither)), "") << material;
+  }
+}
+
+// urdfdom would take the box of size 0 alone.
+TEST_F(VisualGeometryTest, ALinkIsNotTakenForAPointByTheFirstOfItsShapes) {
+  for (const std::string shape : {"<box size='0 0 0'/><sphere radius='1'/>", "<box size='0 0 0.1'/>", "<box/>"}) {
+    const std::string urdf = robot(link("a", kBall) + link("b", visual(shape)) + joint("ab", "fixed", "a", "b"));
+    EXPECT_TRUE(has(refusal(urdf, optionsOf({}, LinkGeometry::kCollision)),
+                    "link 'b': it has visual geometry, but no collision"));
+    EXPECT_NE(refusal(urdf, optionsOf({}, LinkGeometry::kEither)), "");
   }
 }
 
