@@ -41,14 +41,6 @@ std::optional<size_t> variableOf(const KinematicTree& tree, const std::string& j
   return found == variables.end() ? std::nullopt : std::optional(static_cast<size_t>(found - variables.begin()));
 }
 
-// Null: no link of the tree is moved by a joint of this name.
-const TreeLink* linkMovedBy(const KinematicTree& tree, const std::string& joint) {
-  const auto& links = tree.links();
-  const auto moved = [&](const TreeLink& link) { return link.joint == joint && link.moves(); };
-  const auto found = std::find_if(links.begin(), links.end(), moved);
-  return found == links.end() ? nullptr : &*found;
-}
-
 double tolerance(const JointVariable& variable) {
   const double range = variable.continuous ? kTurn : variable.upper - variable.lower;
   return std::isfinite(range) ? kShareOfRange * range : 0.0;
@@ -154,9 +146,9 @@ class PlanReader {
   // After all variables were taken.
   void checkRest(size_t joint) {
     const std::string& name = plan_.joints[joint];
-    const TreeLink* const follower = variableOf(tree_, name) ? nullptr : linkMovedBy(tree_, name);
+    const auto mimic = tree_.mimics().find(name);
     if (beside_.of_frame.count(name) != 0) requireStill(joint);
-    if (follower != nullptr) requireFollowing(joint, *follower);
+    if (mimic != tree_.mimics().end()) requireFollowing(joint, mimic->second);
     if (beside_.elsewhere.count(name) != 0) passed_over_.push_back(printable(name));
   }
 
@@ -176,7 +168,7 @@ class PlanReader {
     }
   }
 
-  void requireFollowing(size_t joint, const TreeLink& follower) {
+  void requireFollowing(size_t joint, const MimicJoint& follower) {
     const JointVariable& leader = tree_.variables()[follower.variable];
     const Worst off = worst(
         joint, [&](size_t point, double position) { return std::abs(position - follower.at(positions_[point])); });
@@ -207,7 +199,7 @@ class PlanReader {
 }  // namespace
 
 bool hasJoint(const KinematicTree& tree, const JointsBesideTree& beside, const std::string& joint) {
-  return variableOf(tree, joint) || linkMovedBy(tree, joint) != nullptr || beside.of_frame.count(joint) != 0 ||
+  return variableOf(tree, joint) || tree.mimics().count(joint) != 0 || beside.of_frame.count(joint) != 0 ||
          beside.elsewhere.count(joint) != 0;
 }
 

@@ -27,6 +27,12 @@ void check(const TreeLink& link, size_t index, size_t variables) {
   if (!(std::abs(link.axis_J.norm() - 1.0) <= kUnitTolerance)) refuse("the axis of its joint is not unit");
 }
 
+void check(const std::string& joint, const MimicJoint& mimic, size_t variables) {
+  const auto refuse = [&](const std::string& reason) { throw InvalidInput("joint '" + joint + "': " + reason); };
+  if (mimic.variable >= variables) refuse("it mimics no variable");
+  if (!std::isfinite(mimic.multiplier) || !std::isfinite(mimic.offset)) refuse("how it follows is not finite");
+}
+
 bool slides(size_t variable, const JointVariable& joint, const std::vector<TreeLink>& links) {
   return std::any_of(links.begin(), links.end(), [&](const TreeLink& link) {
     return link.type == JointType::kPrismatic && link.variable == variable && link.joint == joint.name;
@@ -42,14 +48,18 @@ Eigen::Isometry3d X_JL(const TreeLink& link, double position) {
 
 }  // namespace
 
-KinematicTree::KinematicTree(std::vector<JointVariable> variables, std::vector<TreeLink> links)
-    : variables_(std::move(variables)), links_(std::move(links)) {
+KinematicTree::KinematicTree(std::vector<JointVariable> variables, std::vector<TreeLink> links,
+                             std::map<std::string, MimicJoint> mimics)
+    : variables_(std::move(variables)), links_(std::move(links)), mimics_(std::move(mimics)) {
   for (const JointVariable& variable : variables_) check(variable);
+  for (const auto& [joint, mimic] : mimics_) check(joint, mimic, variables_.size());
   for (size_t i = 0; i < links_.size(); ++i) {
     const TreeLink& link = links_[i];
     check(link, i, variables_.size());
     const size_t body_above = link.parent == TreeLink::kRoot ? TreeLink::kRoot : bodies_[link.parent];
     bodies_.push_back(link.moves() ? i : body_above);
+    if (link.type == JointType::kFixed || link.joint == variables_[link.variable].name) continue;
+    mimics_[link.joint] = {link.variable, link.multiplier, link.offset};
   }
   for (size_t i = 0; i < variables_.size(); ++i) variables_[i].turns = !slides(i, variables_[i], links_);
 }

@@ -1,5 +1,5 @@
 // Plans of a whole robot: a torso carries the frame of the tool and a head; of the tool are a wrist and two fingers, the
-// second of which mimics the first.
+// second of which mimics the first, as a linkage does that moves no link of the tool.
 #include "sweep_guard/kinematics/joint_plan.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,8 @@ KinematicTree handTree() {
   right.offset = 0.01;
   return {{{"wrist", -2.9, 2.9}, {"finger1", 0.0, 0.04}, {"drill", -1e4, 1e4, /*continuous=*/true}},
           {jointLink("wrist", TreeLink::kRoot, JointType::kRevolute, 0),
-           jointLink("finger1", 0, JointType::kPrismatic, 1), right, jointLink("drill", 0, JointType::kRevolute, 2)}};
+           jointLink("finger1", 0, JointType::kPrismatic, 1), right, jointLink("drill", 0, JointType::kRevolute, 2)},
+          {{"linkage", {1, 0.5, 0.0}}}};
 }
 
 class JointPlanTest : public testing::Test {
@@ -108,6 +109,16 @@ TEST_F(JointPlanTest, FollowersThatDoNotAgreeAreRefusedByTheirLeader) {
   EXPECT_TRUE(has(refused({"finger2"}, {{kNan}}), "joint 'finger2' is at nan"));
 }
 
+// What it mimics moves with it.
+TEST_F(JointPlanTest, AFollowerThatMovesNoLinkHasToAgreeToo) {
+  EXPECT_EQ(read({"finger1", "linkage"}, {{0.02, 0.01}, {0.04, 0.02}}).remarks, "");
+  EXPECT_EQ(read({"linkage"}, {{0.01}}).remarks, "");  // finger1 stays at 0.02
+  EXPECT_TRUE(has(read({"finger1", "linkage"}, {{0.02, 0.01001}}).remarks, "puts it at 0.01: swept there"));
+  EXPECT_EQ(refused({"finger1", "linkage"}, {{0.02, 0.01}, {0.02, 0.02}}),
+            "joint 'linkage' is at 0.02 in point 1, but 'finger1', which it mimics, puts it at 0.01");
+  EXPECT_TRUE(has(refused({"linkage"}, {{0.0}}), "'finger1', which it mimics and is not named, puts it at 0.01"));
+}
+
 // By a thousandth of the joint's range.
 TEST_F(JointPlanTest, PositionsALittleBeyondALimitAreTakenAsTheyAreAndSaid) {
   const PlannedPositions plan = read({"wrist", "finger1"}, {{0.0, 0.04003}, {2.905, -1e-6}});
@@ -162,7 +173,7 @@ TEST_F(JointPlanTest, ALongListOfNamesIsCut) {
 }
 
 TEST_F(JointPlanTest, KnowsWhichJointsThereAre) {
-  for (const char* const joint : {"wrist", "finger2", "torso", "head"})
+  for (const char* const joint : {"wrist", "finger2", "linkage", "torso", "head"})
     EXPECT_TRUE(hasJoint(tree_, beside_, joint)) << joint;
   EXPECT_FALSE(hasJoint(tree_, beside_, "sholder"));
 }

@@ -91,6 +91,26 @@ TEST(KinematicTreeTest, RefusesWhatIsNoTree) {
                   "joint 'joint': its lower limit must not be above the upper one"));
 }
 
+TEST(KinematicTreeTest, KnowsTheJointsThatMimicOthers) {
+  TreeLink left = link("left", TreeLink::kRoot, JointType::kPrismatic);
+  left.joint = "left_finger";
+  TreeLink right = link("right", TreeLink::kRoot, JointType::kPrismatic);
+  right.joint = "right_finger";
+  right.multiplier = -1.0;
+  TreeLink plate = link("plate", TreeLink::kRoot, JointType::kFixed);
+  plate.joint = "mount";
+  const KinematicTree tree({{"left_finger"}}, {left, right, plate}, {{"crank", {0, 2.0, 0.1}}});
+  ASSERT_EQ(tree.mimics().size(), 2U);
+  EXPECT_DOUBLE_EQ(tree.mimics().at("right_finger").at({0.02}), -0.02);
+  EXPECT_DOUBLE_EQ(tree.mimics().at("crank").at({0.02}), 0.14);
+  const auto refused = [&](const MimicJoint& mimic) {
+    return refusal([&] { KinematicTree({{"left_finger"}}, {left}, {{"crank", mimic}}); });
+  };
+  EXPECT_TRUE(has(refused({1, 1.0, 0.0}), "joint 'crank': it mimics no variable"));
+  EXPECT_TRUE(has(refused({0, kInfinity, 0.0}), "joint 'crank': how it follows is not finite"));
+  EXPECT_TRUE(has(refused({0, 1.0, std::nan("")}), "joint 'crank': how it follows is not finite"));
+}
+
 constexpr double kStep = 1e-5;  // [rad or m]; the error of a central difference is about its square
 
 // Of the velocity of a link, by a central difference of its exact poses.

@@ -74,6 +74,19 @@ TEST_F(ArticulatedToolTest, ListsWhatCameInTheirPlace) {
   EXPECT_EQ(silence(1.0), "joints 'shoulder', 'elbow', 'jaw' have not been published yet");
 }
 
+// A driver that publishes the finger that follows, and not the one that leads.
+TEST_F(ArticulatedToolTest, AJointThatMimicsAMissingOneIsNotOfferedInItsPlace) {
+  make();
+  tool_->noteForeign(at(0.0, {"other_jaw"}));
+  EXPECT_EQ(silence(1.0), "joints 'shoulder', 'elbow', 'jaw' have not been published yet");
+  add(1.0, {"shoulder", "other_jaw", "elbow"});
+  EXPECT_EQ(silence(1.0), "joint 'jaw' has not been published yet");
+  tool_->noteForeign(at(1.0, {"other_jaw", "left_jaw"}));
+  EXPECT_EQ(silence(1.0),
+            "joint 'jaw' has not been published yet, but joint_states has left_jaw: if they are the same, set "
+            "tool/joint_names");
+}
+
 TEST_F(ArticulatedToolTest, AJointIsShownWithItsNameInMessages) {
   make({{"j1", "shoulder"}, {"j2", "elbow"}});
   EXPECT_EQ(tool_->firstJointIn(at(1.0, {"shoulder", "elbow", "other_jaw"})), nullptr);

@@ -26,12 +26,15 @@ TreeLink linkOf(const std::string& joint, size_t variable, double multiplier = 1
   return link;
 }
 
+// One jaw mimics the other, and so does a linkage that moves no link of the tool.
 KinematicTree instrument() {
   std::vector<JointVariable> variables(3);
   variables[0].name = "yaw";
   variables[1].name = "pitch";
   variables[2].name = "jaw";
-  return {variables, {linkOf("yaw", 0), linkOf("pitch", 1), linkOf("jaw", 2), linkOf("other_jaw", 2, -1.0)}};
+  return {variables,
+          {linkOf("yaw", 0), linkOf("pitch", 1), linkOf("jaw", 2), linkOf("other_jaw", 2, -1.0)},
+          {{"linkage", {2, 0.5, 0.1}}}};
 }
 
 sensor_msgs::JointState message(const std::vector<std::string>& names, const std::vector<double>& positions) {
@@ -96,9 +99,37 @@ TEST_F(JointNamesTest, JointsHaveTheNamesThatTheyWereGiven) {
 TEST_F(JointNamesTest, RefusesNamesThatMeanNoJointOrTwo) {
   EXPECT_TRUE(
       has(refused({{"outer_yaw", "yam"}}), "no joint 'yam' moves the tool's links: those that do are yaw, pitch, jaw"));
-  EXPECT_EQ(refused({{"left_jaw", "other_jaw"}}), "joint 'other_jaw' mimics 'jaw': name that joint");
   EXPECT_EQ(refused({{"a", "yaw"}, {"b", "yaw"}}), "'a' and 'b' name one joint: leave one of them out");
   EXPECT_TRUE(has(refused({{"pitch", "yaw"}}), "'pitch' is the name of two joints on the topic"));
+}
+
+TEST_F(JointNamesTest, AJointThatMimicsAnotherIsRefusedByItsLeader) {
+  for (const std::string follower : {"other_jaw", "linkage"}) {
+    EXPECT_EQ(refused({{"left_jaw", follower}}),
+              "joint '" + follower + "' mimics 'jaw' and need not be published: name 'jaw'");
+    for (const std::string joint : {"jaw", "yaw"}) {
+      EXPECT_EQ(refused({{follower, joint}}), "'" + follower + "' is the name of a joint that mimics 'jaw': publish '" +
+                                                  joint + "' by its own name or by another one");
+    }
+  }
+}
+
+TEST_F(JointNamesTest, JointsThatMimicOthersOrAreFixedAreNotForeign) {
+  const JointNames names(tree_, Fixed{{}, {}, 0.1}, {{"outer_yaw", "yaw"}});
+  for (const std::string own : {"other_jaw", "linkage", "jaw", "pitch", "outer_yaw"}) {
+    ForeignJoints foreign;
+    foreign.note(names, {own, "wheel"});
+    EXPECT_EQ(foreign.text({"yaw"}), "wheel") << own;
+    EXPECT_TRUE(names.isOwn(own));
+  }
+  EXPECT_FALSE(names.isOwn("yaw"));  // it has another name
+}
+
+TEST_F(JointNamesTest, TheNameOfAFixedJointIsTaken) {
+  EXPECT_TRUE(has(refusal([&] {
+                    JointNames(tree_, Fixed{{}, {}, 0.1}, {{"jaw", "yaw"}});
+                  }),
+                  "'jaw' is the name of two joints on the topic"));
 }
 
 TEST_F(JointNamesTest, ForeignJointsAreShownWithThoseFirstThatResembleMissingOnes) {

@@ -192,6 +192,27 @@ TEST_F(MotionGuardNodeTest, FollowsTheToolInTf) {
   statuses.await([](const MotionStatus& next) { return next.cause == "no new tool pose"; }, "the cause");
 }
 
+// Nothing would show what a command does to it.
+TEST_F(MotionGuardNodeTest, AToolThatOnlyStaticTransformsPlaceIsNotMovedAndTheTextSaysWhy) {
+  const ros::Publisher commands = node_.advertise<Twist>("/resting/command", 10);
+  Listener<Twist> guarded(node_, "/resting/guarded_command");
+  Listener<MotionStatus> statuses(node_, "/resting/motion_guard/status");
+  command(twist(-0.1), commands);
+  const std::string why = "only static transforms place 'turned' in 'world'";
+  const MotionStatus status =
+      statuses.await([&](const MotionStatus& next) { return has(next.text, why); }, "why nothing moves");
+  EXPECT_EQ(status.code, MotionStatus::HALT_FOR_COLLISION);
+  EXPECT_EQ(status.cause, "no tool pose yet");
+  for (int i = 0; i < 20; ++i) guarded.await([](const Twist& sent) { return isZero(sent); }, "zero");
+  Listener<diagnostic_msgs::DiagnosticArray> diagnostics(node_, "/diagnostics");
+  const auto says_why = [&](const auto& line) { return line.message.find(why) == 0; };
+  diagnostics.await(
+      [&](const diagnostic_msgs::DiagnosticArray& next) {
+        return std::any_of(next.status.begin(), next.status.end(), says_why);
+      },
+      "the line of the tool pose");
+}
+
 // The zero is sent at the first of these times at which nothing is let through.
 TEST(HoldPublisherTest, AScaleOfZeroAndALockFollowTheZeroThatIsSentBefore) {
   ros::NodeHandle node("hold_publisher_test");

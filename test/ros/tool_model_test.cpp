@@ -180,6 +180,32 @@ TEST(ToolModelTest, JointsThatMimicEachOtherAreRefusedByTheirNames) {
   EXPECT_TRUE(has(refusalOf({{"a", "none"}}), "joint 'a' mimics 'none', which does not exist"));
 }
 
+// A crank leads a rod, which leads a finger; a sensor mimics the crank, and nothing that is right.
+TEST(ToolModelTest, KnowsTheJointsBetweenAFollowerAndWhatItFollows) {
+  const std::string limits = "<axis xyz='0 0 1'/><limit lower='0' upper='1' effort='1' velocity='1'/>";
+  const auto mimic = [&](const std::string& leader, const std::string& how) {
+    return limits + "<mimic joint='" + leader + "' " + how + "/>";
+  };
+  const std::string urdf =
+      robot(link("hand") + link("crank_link") + link("rod_link") + link("finger_link", kBall) + link("sensor_link") +
+            link("loop_link") + link("lost_link") + joint("crank", "prismatic", "hand", "crank_link", limits) +
+            joint("rod", "prismatic", "hand", "rod_link", mimic("crank", "multiplier='2' offset='0.125'")) +
+            joint("finger", "prismatic", "hand", "finger_link", mimic("rod", "multiplier='-3'")) +
+            joint("sensor", "revolute", "hand", "sensor_link", mimic("crank", "offset='1'")) +
+            joint("loop", "revolute", "hand", "loop_link", mimic("loop", "")) +
+            joint("lost", "revolute", "hand", "lost_link", mimic("none", "")));
+  ToolModelOptions options = toolOf("hand", {"finger_link"});
+  const auto model = loadToolModel(urdf, options).robot;
+  std::map<std::string, double> positions;
+  for (const auto& [name, joint] : model->robot.tree.mimics()) positions[name] = joint.at({0.5});
+  EXPECT_EQ(positions, (std::map<std::string, double>{{"rod", 1.125}, {"finger", -3.375}, {"sensor", 1.5}}));
+  EXPECT_EQ(model->beside.elsewhere, (std::set<std::string>{"loop", "lost"}));
+  for (const std::string name : {"rod", "finger", "sensor"}) {
+    options.joints = {{name, 0.1}};
+    EXPECT_EQ(refusal(urdf, options), "joint '" + name + "' mimics 'crank': set that joint in tool/joints");
+  }
+}
+
 // A joint above the tool moves the whole tool.
 // A lift carries a torso, which carries a head, a crank that the lift mimics, and a hand, the tool.
 TEST(ToolModelTest, KnowsWhatTheOtherJointsOfTheRobotMove) {
@@ -287,15 +313,82 @@ TEST_F(VisualGeometryTest, ALinkThatIsAPointIsLeftOutUnlessItIsListed) {
   EXPECT_TRUE(has(refusal(urdf, options), "link 'b': its box's size in "));
 }
 
-TEST_F(VisualGeometryTest, IsCheckedOnlyWhereItMayBeUsed) {
-  const std::string two = robot(
-      link("a", kBall) + link("b", "<visual><geometry><sphere radius='1'/><sphere radius='2'/></geometry></visual>") +
-      joint("ab", "fixed", "a", "b"));
-  ToolModelOptions options = toolOf("a", {"a"});
-  EXPECT_EQ(refusal(two, options), "");
-  for (const LinkGeometry geometry : {LinkGeometry::kEither, LinkGeometry::kVisual}) {
-    options.geometry = geometry;
-    EXPECT_TRUE(has(refusal(two, options), "link 'b': a visual must have one geometry of one shape"));
+// The first two are read by urdfdom as far as they go, the others not at all.
+const std::vector<std::string> kBadShapes = {"<sphere radius='0.1'/><sphere radius='2'/>",
+                                             "<sphere radius='0.1'/></geometry><geometry><box size='1 1 1'/>",
+                                             "<capsule radius='1' length='1'/>",
+                                             "<sphere radius='wide'/>",
+                                             "<mesh scale='1 1 1'/>",
+                                             ""};
+
+ToolModelOptions optionsOf(const std::vector<std::string>& links, LinkGeometry geometry) {
+  ToolModelOptions options = toolOf("a", links);
+  options.geometry = geometry;
+  return options;
+}
+
+TEST_F(VisualGeometryTest, GeometryThatIsNotUsedStopsNothing) {
+  const std::string good_visual = visual("<sphere radius='0.1'/>");
+  const std::string bad_color =
+      "<visual><geometry><sphere radius='1'/></geometry><material name='grey'><color rgba='1 1'/></material></visual>";
+  for (const std::string& shape : kBadShapes) {
+    SCOPED_TRACE(shape);
+    const std::string of_visual = robot(link("a", kBall + visual(shape) + bad_color));
+    EXPECT_EQ(refusal(of_visual, optionsOf({}, LinkGeometry::kCollision)), "");
+    EXPECT_EQ(refusal(of_visual, optionsOf({}, LinkGeometry::kEither)), "");
+    const std::string of_collision = robot(link("a", collision(shape) + good_visual));
+    EXPECT_EQ(refusal(of_collision, optionsOf({}, LinkGeometry::kVisual)), "");
+  }
+}
+
+TEST_F(VisualGeometryTest, GeometryThatIsUsedIsChecked) {
+  for (const std::string& shape : kBadShapes) {
+    SCOPED_TRACE(shape);
+    const std::string of_visual = robot(link("a", visual(shape)));
+    EXPECT_NE(refusal(of_visual, optionsOf({}, LinkGeometry::kVisual)), "");
+    EXPECT_NE(refusal(of_visual, optionsOf({}, LinkGeometry::kEither)), "");
+    const std::string of_collision = robot(link("a", collision(shape) + visual("<sphere radius='0.1'/>")));
+    EXPECT_NE(refusal(of_collision, optionsOf({}, LinkGeometry::kCollision)), "");
+    EXPECT_NE(refusal(of_collision, optionsOf({}, LinkGeometry::kEither)), "");
+  }
+}
+
+TEST_F(VisualGeometryTest, SeveralGeometriesStopOnlyWhereTheLinkIsOfTheTool) {
+  for (const std::string& shape : {kBadShapes[0], kBadShapes[1]}) {
+    for (const LinkGeometry geometry : {LinkGeometry::kCollision, LinkGeometry::kEither, LinkGeometry::kVisual}) {
+      const bool visible = geometry == LinkGeometry::kVisual;
+      const std::string urdf =
+          robot(link("a", kBall + visual("<sphere radius='1'/>")) +
+                link("b", visible ? visual(shape) : collision(shape)) + joint("ab", "fixed", "a", "b"));
+      EXPECT_EQ(refusal(urdf, optionsOf({"a"}, geometry)), "");
+      EXPECT_EQ(refusal(urdf, optionsOf({"a", "b"}, geometry)),
+                std::string("link 'b': a ") + (visible ? "visual" : "collision") +
+                    " must have one geometry of one shape; give each shape its own");
+    }
+  }
+}
+
+// Where the first visual is left out with its material, urdfdom would not know the color of the second one.
+TEST_F(VisualGeometryTest, ColorsDoNotMatter) {
+  const auto colored = [](const std::string& material) {
+    return "<visual><geometry><sphere radius='0.1'/></geometry><material " + material + "</visual>";
+  };
+  const std::string defined = "name='grey'><color rgba='1 1 1 1'/></material>";
+  for (const std::string material :
+       {"name='grey'/>", "name='nowhere'/>", "name='red'><color rgba='1 0'/></material>"}) {
+    const std::string urdf =
+        robot(link("a", kBall + colored(defined)) + link("b", colored(material)) + joint("ab", "fixed", "a", "b"));
+    EXPECT_EQ(refusal(urdf, optionsOf({}, LinkGeometry::kEither)), "") << material;
+  }
+}
+
+// urdfdom would take the box of size 0 alone.
+TEST_F(VisualGeometryTest, ALinkIsNotTakenForAPointByTheFirstOfItsShapes) {
+  for (const std::string shape : {"<box size='0 0 0'/><sphere radius='1'/>", "<box size='0 0 0.1'/>", "<box/>"}) {
+    const std::string urdf = robot(link("a", kBall) + link("b", visual(shape)) + joint("ab", "fixed", "a", "b"));
+    EXPECT_TRUE(has(refusal(urdf, optionsOf({}, LinkGeometry::kCollision)),
+                    "link 'b': it has visual geometry, but no collision"));
+    EXPECT_NE(refusal(urdf, optionsOf({}, LinkGeometry::kEither)), "");
   }
 }
 

@@ -12,7 +12,7 @@ namespace sweep_guard_core {
 struct JointsBesideTree {
   /// Move the frame of the tool, or are mimicked by a joint that does. They may be variables of the tree, too.
   std::set<std::string> of_frame;
-  std::set<std::string> elsewhere;  ///< move neither the tool's links nor its frame
+  std::set<std::string> elsewhere;  ///< move neither the tool's links nor its frame, and mimic no variable of the tree
 };
 
 /// Holds positions of named joints, as planners send them.

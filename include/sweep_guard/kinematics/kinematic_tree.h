@@ -22,6 +22,16 @@ struct JointVariable {
       true;  ///< its positions are angles; a KinematicTree finds that out. Joints that mimic it may move otherwise
 };
 
+/// A joint that mimics a variable: it is at multiplier * variable + offset [rad or m].
+struct MimicJoint {
+  size_t variable = 0;
+  double multiplier = 1.0;
+  double offset = 0.0;
+
+  /// Returns the position of the joint [rad or m].
+  double at(const std::vector<double>& positions) const { return multiplier * positions[variable] + offset; }
+};
+
 /// A link L of a robot, and the joint that joins it to its parent P: L is where the joint frame J is, moved by the joint.
 struct TreeLink {
   static constexpr size_t kRoot = std::numeric_limits<size_t>::max();
@@ -45,12 +55,16 @@ struct TreeLink {
 /// The links of a robot that matter, and how its joints move them.
 class KinematicTree {
  public:
+  /// @param mimics  joints that mimic a variable and move no link, by name; those that move one may be left out
   /// @throws InvalidInput if a link comes before its parent, a joint has no variable, an axis is not unit, a number is not
   ///     finite, or limits are the wrong way round
-  KinematicTree(std::vector<JointVariable> variables, std::vector<TreeLink> links);
+  KinematicTree(std::vector<JointVariable> variables, std::vector<TreeLink> links,
+                std::map<std::string, MimicJoint> mimics = {});
 
   const std::vector<JointVariable>& variables() const { return variables_; }
   const std::vector<TreeLink>& links() const { return links_; }
+  /// Returns the joints that mimic a variable, by name, whether they move a link or not.
+  const std::map<std::string, MimicJoint>& mimics() const { return mimics_; }
 
   /// Returns the index of the topmost link of the body of a link: joints within a body do not move. TreeLink::kRoot: the
   /// link moves with the root.
@@ -71,6 +85,7 @@ class KinematicTree {
  private:
   std::vector<JointVariable> variables_;
   std::vector<TreeLink> links_;
+  std::map<std::string, MimicJoint> mimics_;
   std::vector<size_t> bodies_;
 };
 

@@ -14,7 +14,7 @@ constexpr size_t kMaxShown = 8;
 
 void ForeignJoints::note(const JointNames& own, const std::vector<std::string>& names) {
   for (const std::string& name : names) {
-    if (names_.size() < kMaxRemembered && !own.has(name)) names_.insert(name);
+    if (names_.size() < kMaxRemembered && !own.isOwn(name)) names_.insert(name);
   }
 }
 

@@ -20,10 +20,16 @@ JointNames::JointNames(const sweep_guard_core::KinematicTree& tree, const std::v
   for (const auto& [in_messages, joint] : renamed) rename(in_messages, variableNamed(tree, joint));
   for (size_t i = 0; i < names_.size(); ++i) {
     if (names_[i].empty()) names_[i] = tree.variables()[i].name;
-    if (fixed[i]) continue;
-    if (variables_.emplace(names_[i], i).second) continue;
-    throw InvalidInput("'" + printable(names_[i]) +
-                       "' is the name of two joints on the topic: give the joint of this name another one");
+    if (!own_.insert(names_[i]).second) {
+      throw InvalidInput("'" + printable(names_[i]) +
+                         "' is the name of two joints on the topic: give the joint of this name another one");
+    }
+    if (!fixed[i]) variables_.emplace(names_[i], i);
+  }
+  for (const auto& [joint, mimic] : tree.mimics()) {
+    if (own_.insert(joint).second) continue;
+    throw InvalidInput("'" + joint + "' is the name of a joint that mimics '" + tree.variables()[mimic.variable].name +
+                       "': publish '" + renamed.at(joint) + "' by its own name or by another one");
   }
 }
 

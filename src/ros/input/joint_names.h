@@ -4,6 +4,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -21,8 +22,8 @@ class JointNames {
 
   /// @param fixed    from fixedPositions(): joints with a position are passed over in messages
   /// @param renamed  joints that are not here have the same name in messages as in the robot description
-  /// @throws sweep_guard_core::InvalidInput if a joint of `renamed` is none of the tree, has two names in messages, or
-  ///     takes the name of another one, for which none is left
+  /// @throws sweep_guard_core::InvalidInput if a joint of `renamed` is none of the tree, mimics another one, has two names in
+  ///     messages, or takes the name of another one, for which none is left, or of one that mimics another
   JointNames(const sweep_guard_core::KinematicTree& tree, const std::vector<std::optional<double>>& fixed,
              const Renamed& renamed = {});
 
@@ -35,7 +36,10 @@ class JointNames {
   void find(const sensor_msgs::JointState& message,
             std::vector<sweep_guard_core::JointTimeline::Position>& positions) const;
 
+  /// Returns whether positions are taken from this name in messages.
   bool has(const std::string& name_in_messages) const { return variables_.count(name_in_messages) != 0; }
+  /// Returns whether a joint of the robot has this name in messages, also one that is fixed or mimics another one.
+  bool isOwn(const std::string& name_in_messages) const { return own_.count(name_in_messages) != 0; }
   /// Returns the name in messages of the joint of a variable.
   const std::string& inMessages(size_t variable) const { return names_[variable]; }
 
@@ -43,7 +47,8 @@ class JointNames {
   void rename(const std::string& in_messages, size_t variable);
 
   std::vector<std::string> names_;                     // by variable
-  std::unordered_map<std::string, size_t> variables_;  // by name in messages
+  std::unordered_map<std::string, size_t> variables_;  // by name in messages; without those that are fixed
+  std::set<std::string> own_;                          // names in messages, of joints that mimic others, too
 };
 
 /// Returns the position of each variable that has one by the name of its joint [rad or m].

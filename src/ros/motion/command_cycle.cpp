@@ -161,6 +161,7 @@ void CommandCycle::explain(PermissionCause cause, const Instant& at, sweep_guard
   std::string why;
   if (cause == PermissionCause::kNoWarning) why = sources_.guard.absence();
   if (cause == PermissionCause::kOldCommand) why = gaps_.tooOld(at);
+  if (cause == PermissionCause::kNoPose || cause == PermissionCause::kPoseSilent) why = sources_.tool_pose.standstill();
   if (!why.empty()) status.text = "stopped: " + why;
 }
 

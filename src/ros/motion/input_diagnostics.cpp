@@ -45,6 +45,8 @@ void reportPose(const ToolPoseInput& pose, const std::string& name, DiagnosticsL
   line.summary(DiagnosticStatus::OK, "received");
   if (silent(record)) line.summary(DiagnosticStatus::ERROR, "no " + name + " on " + pose.source());
   if (refusedLately(record)) line.mergeSummary(DiagnosticStatus::ERROR, "refused: " + record.last_error);
+  const std::string standstill = pose.standstill();
+  if (!standstill.empty()) line.summary(DiagnosticStatus::ERROR, standstill);
   if (pose.publishers().value_or(1) > 1) {
     line.mergeSummary(DiagnosticStatus::WARN, "several publishers: the tool jumps between their poses");
   }

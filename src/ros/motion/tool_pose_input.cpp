@@ -11,6 +11,7 @@ using sweep_guard_core::InvalidInput;
 
 constexpr std::uint32_t kPosesQueued = 1;  // only the newest counts
 constexpr size_t kMaxPoseSize = 16384;
+constexpr sweep_guard_core::Duration kInstant{1};
 
 Eigen::Isometry3d nearestInTime(const Frames& frames, const std::string& target, const std::string& source,
                                 sweep_guard_core::Time stamp) {
@@ -46,6 +47,11 @@ std::optional<sweep_guard_core::MotionInputs::ToolPose> ToolPoseInput::newest() 
   return newest_;
 }
 
+std::string ToolPoseInput::standstill() const {
+  const sweep_guard_core::Lock lock(mutex_);
+  return standstill_;
+}
+
 std::optional<std::uint32_t> ToolPoseInput::publishers() const {
   return subscriber_ ? std::optional(subscriber_.getNumPublishers()) : std::nullopt;
 }
@@ -71,11 +77,27 @@ void ToolPoseInput::onTransforms() {
   if (!newest) return;
   const sweep_guard_core::Timestamps timestamps{*newest, std::chrono::steady_clock::now()};
   record_.received(timestamps);
+  if (*newest == sweep_guard_core::Time()) return refuseStandstill(whyItNeverMoves());
   try {
     accept(frames_.lookup(fixed_frame_, tool_frame_, *newest), timestamps);
   } catch (const sweep_guard_core::Error& error) {
     refuse(error.what());
   }
+}
+
+// Of a frame whose newest transform has the stamp 0. One that is static holds at each time.
+std::string ToolPoseInput::whyItNeverMoves() const {
+  if (fixed_frame_ == tool_frame_) return "tool_frame is fixed_frame, in which it never moves";
+  const bool is_static = frames_.find(fixed_frame_, tool_frame_, sweep_guard_core::Time() + kInstant).has_value();
+  if (!is_static) return "the transforms to '" + tool_frame_ + "' have the stamp 0: stamp each";
+  return "only static transforms place '" + tool_frame_ + "' in '" + fixed_frame_ +
+         "', and none shows how it moves: publish those of the robot on /tf, or set tool_frame to a frame that moves";
+}
+
+void ToolPoseInput::refuseStandstill(const std::string& why) {
+  refuse(why);
+  const sweep_guard_core::Lock lock(mutex_);
+  standstill_ = why;
 }
 
 void ToolPoseInput::accept(const Eigen::Isometry3d& X_WT, const sweep_guard_core::Timestamps& timestamps) {
@@ -85,6 +107,7 @@ void ToolPoseInput::accept(const Eigen::Isometry3d& X_WT, const sweep_guard_core
     throw InvalidInput("stamp is older than the previous pose's");
   }
   newest_ = {X_WT, timestamps};
+  standstill_.clear();
 }
 
 void ToolPoseInput::refuse(const std::string& reason) {

@@ -18,7 +18,8 @@
 namespace sweep_guard_ros {
 
 /// Keeps the newest pose of the tool, or of another frame, from a topic or from tf. Looks transforms up as they are: a pose whose
-/// frame has no transform at its stamp takes the newest one.
+/// frame has no transform at its stamp takes the newest one. A frame in tf that only static transforms place has no pose: where
+/// it is says nothing of what moves it.
 class ToolPoseInput {
  public:
   ToolPoseInput(const ros::NodeHandle& node, const PoseSource& source, Frames& frames);
@@ -30,6 +31,9 @@ class ToolPoseInput {
 
   std::optional<sweep_guard_core::MotionInputs::ToolPose> newest() const;  ///< any thread
 
+  /// Returns why transforms that came place the frame and never show that it moves, in words; empty: they may.
+  std::string standstill() const;
+
   const sweep_guard_core::InputRecord& record() const { return record_; }
   const std::string& source() const { return source_; }  ///< resolved topic, or the tf frames
   std::optional<std::uint32_t> publishers() const;       ///< of the topic; empty for tf
@@ -37,6 +41,8 @@ class ToolPoseInput {
  private:
   void onMessage(const geometry_msgs::PoseStamped& msg);
   void onTransforms();
+  std::string whyItNeverMoves() const;
+  void refuseStandstill(const std::string& why);
   void accept(const Eigen::Isometry3d& X_WT, const sweep_guard_core::Timestamps& timestamps);
   void refuse(const std::string& reason);
 
@@ -48,6 +54,7 @@ class ToolPoseInput {
   Frames& frames_;
   mutable sweep_guard_core::Mutex mutex_;
   std::optional<sweep_guard_core::MotionInputs::ToolPose> newest_ GUARDED_BY(mutex_);
+  std::string standstill_ GUARDED_BY(mutex_);
   std::optional<sweep_guard_core::Time> last_transform_;  // used by the tf listener's thread only
   sweep_guard_core::InputRecord record_;
   LogThrottle log_;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -54,19 +55,56 @@ int elements(const XMLElement& parent, const char* name = nullptr) {
   return count;
 }
 
-// urdfdom silently reads only the first of several geometries.
-void requireOneGeometry(const XMLElement& shape, const std::string& link) {
-  const XMLElement* const geometry = shape.FirstChildElement("geometry");
-  if (geometry != nullptr && elements(shape, "geometry") == 1 && elements(*geometry) == 1) return;
-  throw InvalidInput("link '" + link + "': a " + shape.Name() +
-                     " must have one geometry of one shape; give each shape its own");
+std::string oneGeometryText(const std::string& kind) {
+  return "a " + kind + " must have one geometry of one shape; give each shape its own";
 }
 
-void requireOneGeometryEach(const XMLElement& link, const char* kind) {
-  for (const XMLElement* shape = link.FirstChildElement(kind); shape != nullptr;
-       shape = shape->NextSiblingElement(kind)) {
-    requireOneGeometry(*shape, nameOf(link));
+std::vector<XMLElement*> elementsOf(XMLElement& link, const char* kind) {
+  std::vector<XMLElement*> shapes;
+  for (XMLElement* shape = link.FirstChildElement(kind); shape != nullptr; shape = shape->NextSiblingElement(kind)) {
+    shapes.push_back(shape);
   }
+  return shapes;
+}
+
+void removeEach(XMLElement& parent, const char* kind) {
+  for (XMLElement* element : elementsOf(parent, kind)) parent.DeleteChild(element);
+}
+
+// urdfdom silently reads only the first of several geometries.
+bool hasSeveralGeometries(const XMLElement& shape) {
+  const XMLElement* const geometry = shape.FirstChildElement("geometry");
+  return geometry != nullptr && (elements(shape, "geometry") > 1 || elements(*geometry) > 1);
+}
+
+bool hasGeometry(const XMLElement& shape) {
+  const XMLElement* const geometry = shape.FirstChildElement("geometry");
+  return geometry != nullptr && elements(*geometry) > 0;
+}
+
+bool isPoint(const XMLElement& shape) {
+  if (!hasGeometry(shape) || hasSeveralGeometries(shape)) return false;
+  const XMLElement* const box = shape.FirstChildElement("geometry")->FirstChildElement("box");
+  const char* const size = box == nullptr ? nullptr : box->Attribute("size");
+  double x = 1.0, y = 1.0, z = 1.0;
+  return size != nullptr && std::istringstream(size) >> x >> y >> z && x == 0.0 && y == 0.0 && z == 0.0;
+}
+
+// What is wrong with geometry that is not read, or with a color, does not matter.
+LinkElements readElements(XMLElement& link, LinkGeometry wanted) {
+  const auto collisions = elementsOf(link, "collision");
+  const auto visuals = elementsOf(link, "visual");
+  LinkElements found;
+  found.visual_is_read = wanted == LinkGeometry::kVisual || (wanted == LinkGeometry::kEither && collisions.empty());
+  found.has_shape = !collisions.empty() || !std::all_of(visuals.begin(), visuals.end(),
+                                                        [](const XMLElement* visual) { return isPoint(*visual); });
+  for (XMLElement* shape : found.visual_is_read ? visuals : collisions) {
+    if (!hasGeometry(*shape)) throw InvalidInput("link '" + nameOf(link) + "': " + oneGeometryText(shape->Name()));
+    found.has_several = found.has_several || hasSeveralGeometries(*shape);
+    removeEach(*shape, "material");
+  }
+  removeEach(link, found.visual_is_read ? "collision" : "visual");
+  return found;
 }
 
 class PrinterWithoutComments : public tinyxml2::XMLPrinter {
@@ -132,18 +170,17 @@ void unmask(urdf::ModelInterface& model) {
 }
 
 // tinyxml2 limits the depth of nested elements; TinyXML, and so urdfdom, does not.
-std::string checkedXml(const std::string& urdf, bool uses_visuals) {
+// @param[out] found  by link
+std::string checkedXml(const std::string& urdf, LinkGeometry geometry, std::map<std::string, LinkElements>& found) {
   if (urdf.size() > kMaxDescription) throw InvalidInput("larger than 8 MiB");
   tinyxml2::XMLDocument document;
   if (document.Parse(urdf.data(), urdf.size()) != tinyxml2::XML_SUCCESS) {
     throw InvalidInput("not XML: " + oneLine(document.ErrorStr()));
   }
-  const XMLElement* const robot = document.FirstChildElement("robot");
+  XMLElement* const robot = document.FirstChildElement("robot");
   if (robot == nullptr) throw InvalidInput("no element <robot>");
-  for (const XMLElement* link = robot->FirstChildElement("link"); link != nullptr;
-       link = link->NextSiblingElement("link")) {
-    requireOneGeometryEach(*link, "collision");
-    if (uses_visuals) requireOneGeometryEach(*link, "visual");
+  for (XMLElement* link = robot->FirstChildElement("link"); link != nullptr; link = link->NextSiblingElement("link")) {
+    found[nameOf(*link)] = readElements(*link, geometry);
   }
   PrinterWithoutComments printer;
   document.Accept(&printer);
@@ -164,6 +201,13 @@ std::shared_ptr<const urdf::ModelInterface> parse(const std::string& xml) {
   if (!reason.empty()) throw InvalidInput("not a URDF: " + oneLine(unmasked(reason)));
   unmask(*model);
   return model;
+}
+
+// Two readers of XML may differ in what a name is.
+void requireRead(const urdf::ModelInterface& model, const std::map<std::string, LinkElements>& found) {
+  for (const auto& [name, link] : model.links_) {
+    if (found.count(name) == 0) throw InvalidInput(oneLine("link '" + name + "': its name is not plain text"));
+  }
 }
 
 void requireOneParentEach(const urdf::ModelInterface& model) {
@@ -190,8 +234,9 @@ void requireConnected(const urdf::ModelInterface& model) {
 
 }  // namespace
 
-RobotDescription::RobotDescription(const std::string& urdf, bool uses_visuals)
-    : model_(parse(checkedXml(urdf, uses_visuals))) {
+RobotDescription::RobotDescription(const std::string& urdf, LinkGeometry geometry)
+    : model_(parse(checkedXml(urdf, geometry, elements_))) {
+  requireRead(*model_, elements_);
   requireOneParentEach(*model_);
   requireConnected(*model_);
 }
@@ -204,6 +249,11 @@ const urdf::Link* RobotDescription::link(const std::string& name) const {
 const urdf::Joint* RobotDescription::joint(const std::string& name) const {
   const auto found = model_->joints_.find(name);
   return found == model_->joints_.end() ? nullptr : found->second.get();
+}
+
+void RobotDescription::requireOneGeometryEach(const urdf::Link& link) const {
+  if (elements_.at(link.name).has_several)
+    throw InvalidInput(oneGeometryText(isMadeOfVisuals(link) ? "visual" : "collision"));
 }
 
 std::vector<const urdf::Link*> RobotDescription::subtree(const urdf::Link& link) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -17,6 +18,7 @@ using sweep_guard_core::JointsBesideTree;
 using sweep_guard_core::JointType;
 using sweep_guard_core::JointVariable;
 using sweep_guard_core::KinematicTree;
+using sweep_guard_core::MimicJoint;
 using sweep_guard_core::TreeLink;
 
 constexpr size_t kMaxMimicDepth = 16;
@@ -121,7 +123,10 @@ class TreeBuilder {
     return parent;
   }
 
-  KinematicTree tree() { return {std::move(variables_), std::move(links_)}; }
+  KinematicTree tree() {
+    std::map<std::string, MimicJoint> mimics = mimicsOfVariables();
+    return {std::move(variables_), std::move(links_), std::move(mimics)};
+  }
 
  private:
   TreeLink linkBelow(const urdf::Joint& joint, size_t parent) {
@@ -141,23 +146,52 @@ class TreeBuilder {
     Joints chain{&joint};
     requireSupported(joint);
     while (chain.back()->mimic) {
-      link.offset += link.multiplier * chain.back()->mimic->offset;
-      link.multiplier *= chain.back()->mimic->multiplier;
       chain.push_back(&followedBy(robot_, chain));
       requireSupported(*chain.back());
     }
-    link.variable = variableOf(*chain.back());
+    if (indexOf(*chain.back()) == variables_.size()) addVariable(*chain.back());
+    const MimicJoint mimic = *mimicOf(joint);
+    link.variable = mimic.variable;
+    link.multiplier = mimic.multiplier;
+    link.offset = mimic.offset;
   }
 
-  size_t variableOf(const urdf::Joint& joint) {
+  // Empty: the joint mimics no variable. One that mimics nothing is the variable itself.
+  std::optional<MimicJoint> mimicOf(const urdf::Joint& joint) const {
+    MimicJoint mimic;
+    const urdf::Joint* leader = &joint;
+    for (size_t depth = 0; leader != nullptr && leader->mimic && depth < kMaxMimicDepth; ++depth) {
+      mimic.offset += mimic.multiplier * leader->mimic->offset;
+      mimic.multiplier *= leader->mimic->multiplier;
+      leader = robot_.joint(leader->mimic->joint_name);
+    }
+    if (leader == nullptr || leader->mimic) return {};
+    mimic.variable = indexOf(*leader);
+    return mimic.variable < variables_.size() ? std::optional(mimic) : std::nullopt;
+  }
+
+  // Of the whole robot. What is wrong with a joint that moves none of the links does not matter.
+  std::map<std::string, MimicJoint> mimicsOfVariables() const {
+    std::map<std::string, MimicJoint> mimics;
+    for (const urdf::Link* link : RobotDescription::subtree(robot_.root())) {
+      const auto& joint = link->parent_joint;
+      if (!joint || !joint->mimic || joint->type == urdf::Joint::FIXED) continue;
+      const auto mimic = mimicOf(*joint);
+      if (mimic && std::isfinite(mimic->multiplier) && std::isfinite(mimic->offset)) mimics[joint->name] = *mimic;
+    }
+    return mimics;
+  }
+
+  // As many as there are: none has its name.
+  size_t indexOf(const urdf::Joint& joint) const {
     const auto same = [&](const JointVariable& variable) { return variable.name == joint.name; };
-    const auto found = std::find_if(variables_.begin(), variables_.end(), same);
-    const auto index = static_cast<size_t>(found - variables_.begin());
-    if (found != variables_.end()) return index;
+    return static_cast<size_t>(std::find_if(variables_.begin(), variables_.end(), same) - variables_.begin());
+  }
+
+  void addVariable(const urdf::Joint& joint) {
     const auto [lower, upper] = limitsOf(joint);
     const double velocity = joint.limits ? joint.limits->velocity : 0.0;
     variables_.push_back({joint.name, lower, upper, joint.type == urdf::Joint::CONTINUOUS, velocity});
-    return index;
   }
 
   const RobotDescription& robot_;
@@ -170,10 +204,10 @@ void checkGiven(const RobotDescription& robot, const KinematicTree& tree, const 
   const urdf::Joint* const joint = robot.joint(name);
   if (joint == nullptr) throw InvalidInput("tool/joints names '" + name + "', which is not a joint of the robot");
   if (!std::isfinite(position)) throw InvalidInput("the position of joint '" + name + "' is not finite");
-  const auto& links = tree.links();
-  const bool used = std::any_of(links.begin(), links.end(), [&](const TreeLink& link) { return link.joint == name; });
-  if (!used || !joint->mimic) return;
-  throw InvalidInput("joint '" + name + "' mimics '" + joint->mimic->joint_name + "': set that joint in tool/joints");
+  const auto mimic = tree.mimics().find(name);
+  if (mimic == tree.mimics().end()) return;
+  throw InvalidInput("joint '" + name + "' mimics '" + tree.variables()[mimic->second.variable].name +
+                     "': set that joint in tool/joints");
 }
 
 void checkLimits(const KinematicTree& tree, const std::vector<double>& positions) {
@@ -209,10 +243,7 @@ JointsBesideTree jointsBeside(const RobotDescription& robot, const urdf::Link& f
   JointsBesideTree beside{namesOfMovers(robot, frame), {}};
   std::set<std::string> known = beside.of_frame;
   for (const JointVariable& variable : tree.variables()) known.insert(variable.name);
-  for (const TreeLink& link : tree.links()) {
-    if (const urdf::Joint* const joint = link.moves() ? robot.joint(link.joint) : nullptr)
-      addWithLeaders(robot, joint, known);
-  }
+  for (const auto& mimic : tree.mimics()) known.insert(mimic.first);
   for (const urdf::Link* link : RobotDescription::subtree(robot.root())) {
     if (link->parent_joint && known.count(link->parent_joint->name) == 0)
       beside.elsewhere.insert(link->parent_joint->name);
@@ -252,9 +283,10 @@ size_t variableNamed(const KinematicTree& tree, const std::string& joint) {
     if (tree.variables()[i].name == joint) return i;
     known += (i == 0 ? "" : ", ") + tree.variables()[i].name;
   }
-  for (const TreeLink& link : tree.links()) {
-    if (link.joint != joint || !link.moves()) continue;
-    throw InvalidInput("joint '" + joint + "' mimics '" + tree.variables()[link.variable].name + "': name that joint");
+  if (const auto mimic = tree.mimics().find(joint); mimic != tree.mimics().end()) {
+    const std::string& leader = tree.variables()[mimic->second.variable].name;
+    throw InvalidInput("joint '" + joint + "' mimics '" + leader + "' and need not be published: name '" + leader +
+                       "'");
   }
   throw InvalidInput("no joint '" + sweep_guard_core::printable(joint) +
                      "' moves the tool's links: " + (known.empty() ? "none does" : "those that do are " + known));

@@ -44,24 +44,12 @@ const urdf::Link& frameOf(const RobotDescription& robot, const ToolModelOptions&
                                                   : linkNamed(robot, options.links.front(), "tool/links");
 }
 
-// Some descriptions give links that only join others a box of size 0.
-bool isPoint(const urdf::VisualSharedPtr& visual) {
-  if (visual->geometry->type != urdf::Geometry::BOX) return false;
-  const urdf::Vector3& dim = static_cast<const urdf::Box&>(*visual->geometry).dim;
-  return dim.x == 0.0 && dim.y == 0.0 && dim.z == 0.0;
-}
-
-bool hasNoShape(const urdf::Link& link) {
-  const auto& visuals = link.visual_array;
-  return link.collision_array.empty() && std::all_of(visuals.begin(), visuals.end(), isPoint);
-}
-
 std::vector<const urdf::Link*> linksOf(const RobotDescription& robot, const ToolModelOptions& options,
                                        const urdf::Link& frame) {
   if (options.links.empty()) {
     std::vector<const urdf::Link*> links = RobotDescription::subtree(frame);
-    links.erase(std::remove_if(links.begin(), links.end(), [](const urdf::Link* link) { return hasNoShape(*link); }),
-                links.end());
+    const auto has_no_shape = [&robot](const urdf::Link* link) { return robot.hasNoShape(*link); };
+    links.erase(std::remove_if(links.begin(), links.end(), has_no_shape), links.end());
     if (links.empty()) throw InvalidInput("link '" + frame.name + "' and the links below it have no shape");
     return links;
   }
@@ -161,15 +149,11 @@ void addPiecesOf(const Element& element, const urdf::Link& link, const Eigen::Is
   }
 }
 
-bool isMadeOfVisuals(const urdf::Link& link, const ToolModelOptions& options) {
-  const bool instead = options.geometry == LinkGeometry::kEither && link.collision_array.empty();
-  return options.geometry == LinkGeometry::kVisual || instead;
-}
-
-void addPieces(const urdf::Link& link, const Eigen::Isometry3d& X_TL, const ToolModelOptions& options,
-               ToolModel& model) {
+void addPieces(const RobotDescription& robot, const urdf::Link& link, const Eigen::Isometry3d& X_TL,
+               const ToolModelOptions& options, ToolModel& model) {
+  robot.requireOneGeometryEach(link);
   const size_t before = model.pieces.size();
-  const bool visual = isMadeOfVisuals(link, options);
+  const bool visual = robot.isMadeOfVisuals(link);
   if (visual) {
     for (const auto& element : link.visual_array) addPiecesOf(*element, link, X_TL, options, model);
   } else {
@@ -187,14 +171,14 @@ void withLinkInErrors(const urdf::Link& link, Work work) {
   }
 }
 
-void requireGeometry(const urdf::Link& link, const ToolModelOptions& options) {
-  const bool visual = isMadeOfVisuals(link, options);
+void requireGeometry(const RobotDescription& robot, const urdf::Link& link) {
+  const bool visual = robot.isMadeOfVisuals(link);
   if (visual ? !link.visual_array.empty() : !link.collision_array.empty()) return;
   const std::string wanted = visual ? "visual" : "collision";
-  const std::string found =
-      hasNoShape(link) ? "it has no geometry"
-                       : std::string("it has ") + (visual ? "collision" : "visual") + " geometry, but no " + wanted;
-  const std::string other = hasNoShape(link) ? "" : "set tool/geometry to either, ";
+  const std::string found = robot.hasNoShape(link) ? "it has no geometry"
+                                                   : std::string("it has ") + (visual ? "collision" : "visual") +
+                                                         " geometry, but no " + wanted;
+  const std::string other = robot.hasNoShape(link) ? "" : "set tool/geometry to either, ";
   throw InvalidInput("link '" + link.name + "': " + found + "; " + other + "add a <" + wanted +
                      ">, or list only links with one in tool/links");
 }
@@ -222,7 +206,7 @@ void addRobot(RobotTree&& robot_tree, const std::vector<double>& positions, cons
 }  // namespace
 
 ToolModel loadToolModel(const std::string& urdf, const ToolModelOptions& options) {
-  const RobotDescription robot(urdf, options.geometry != LinkGeometry::kCollision);
+  const RobotDescription robot(urdf, options.geometry);
   const urdf::Link& frame = frameOf(robot, options);
   const std::vector<const urdf::Link*> links = linksOf(robot, options, frame);
   RobotTree robot_tree = treeOf(robot, frame, links);
@@ -235,11 +219,11 @@ ToolModel loadToolModel(const std::string& urdf, const ToolModelOptions& options
   for (size_t i = 0; i < links.size(); ++i) {
     const Eigen::Isometry3d X_TL = X_TR * poseOf(robot_tree.links[i], X_RL);
     const auto before = static_cast<std::ptrdiff_t>(model.pieces.size());
-    withLinkInErrors(*links[i], [&] { addPieces(*links[i], X_TL, options, model); });
+    withLinkInErrors(*links[i], [&] { addPieces(robot, *links[i], X_TL, options, model); });
     pieces_of_links.emplace_back(robot_tree.links[i],
                                  placed(X_TL.inverse(), model.pieces.begin() + before, model.pieces.end()));
   }
-  for (const urdf::Link* link : links) requireGeometry(*link, options);  // last, to report a missing mesh first
+  for (const urdf::Link* link : links) requireGeometry(robot, *link);  // last, to report a missing mesh first
   addRobot(std::move(robot_tree), positions, X_TR, pieces_of_links, model);
   return model;
 }

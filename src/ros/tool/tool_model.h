@@ -6,15 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "ros/tool/link_geometry.h"
 #include "sweep_guard/geometry/decomposition.h"
 #include "sweep_guard/geometry/tool.h"
 #include "sweep_guard/kinematics/joint_plan.h"
 #include "sweep_guard/kinematics/robot_path.h"
 
 namespace sweep_guard_ros {
-
-/// Says which geometry of its links a tool is made of; kEither: a link's collisions or, if it has none, its visuals.
-enum class LinkGeometry { kCollision, kVisual, kEither };
 
 /// Selects the tool from a robot.
 struct ToolModelOptions {
@@ -57,8 +55,8 @@ struct ToolModel {
 /// Makes a tool from the geometry of links of a URDF, in meters. Cylinders, boxes and spheres are exact. A mesh is
 /// decomposed into sets of triangles (see decompose()), and each set is replaced by its convex hull.
 /// @throws sweep_guard_core::InvalidInput, in one line that names link and file and says what to do, if the description
-///     or a mesh is missing, malformed or hostile; if a link has no geometry of the kind asked for (no link is omitted);
-///     or if a piece is degenerate or reaches farther than 100 m
+///     or a mesh is missing, malformed or hostile; if a link has no geometry of the kind asked for (no link is omitted), or
+///     several in one element; or if a piece is degenerate or reaches farther than 100 m
 ToolModel loadToolModel(const std::string& urdf, const ToolModelOptions& options);
 
 /// Returns the pieces of all bodies in their order, in the tool frame, at RobotModel::positions.
