@@ -53,7 +53,7 @@ class BodyPrediction {
   Prediction* prediction_ = nullptr;
   Eigen::Isometry3d X_WB_ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d X_WM_ = Eigen::Isometry3d::Identity();  // of the workpiece under test, in a frame that rests
-  std::optional<PredictedPath> frame_;                      // the same, of one that moves on its own
+  std::optional<std::vector<PredictedFrame>> frame_;        // the same, of one that moves on its own
   size_t next_ = 0;                                         // workpiece
   size_t tested_ = 0;                                       // objects of the prediction
 };

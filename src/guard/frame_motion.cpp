@@ -15,17 +15,6 @@ constexpr Duration kVelocityTime = std::chrono::milliseconds(20);  // stamps tha
 constexpr Duration kKept = std::chrono::milliseconds(100);         // of what velocity() needs
 constexpr size_t kMaxKept = 8192;                                  // as SampleBuffer
 
-struct FrameKnot {
-  Time time;
-  Eigen::Isometry3d X_WM;
-  Matrix6d covariance;
-  double deviation_bound;
-};
-
-FrameKnot measuredKnot(const FramePose& pose) {
-  return {pose.stamp, pose.X_WM, Matrix6d::Zero(), pose.deviation_bound};
-}
-
 // The pose P that the prediction begins at may lie between two measured ones, A and C. On the way to it, the frame is within the
 // bound of Motion(A, C), which is within its arc of the chord from A; that chord ends within the bound of P, and is within the
 // arc of Motion(A, P) of it.
@@ -37,35 +26,35 @@ double boundOfFirst(const FrameMotion& motion, double radius) {
   const auto arc = [&](const Eigen::Isometry3d& X_WM) {
     return chordError(radius, Motion{std::prev(next)->X_WM, X_WM}.angle());
   };
-  return 2.0 * next->deviation_bound + arc(next->X_WM) + arc(motion.predicted.front().X_WT);
+  return 2.0 * next->deviation_bound + arc(next->X_WM) + arc(motion.predicted.front().X_WM);
 }
 
 // The bounds hold for points within a radius.
-std::vector<FrameKnot> knotsOf(const FrameMotion& motion, double radius) {
-  std::vector<FrameKnot> knots;
+std::vector<PredictedFrame> knotsOf(const FrameMotion& motion, double radius) {
+  std::vector<PredictedFrame> knots;
   for (const FramePose& pose : motion.measured) {
-    if (motion.predicted.empty() || pose.stamp < motion.predicted_from) knots.push_back(measuredKnot(pose));
+    if (motion.predicted.empty() || pose.stamp < motion.predicted_from)
+      knots.push_back({pose.stamp - motion.predicted_from, pose.X_WM, Matrix6d::Zero(), pose.deviation_bound});
   }
   const size_t measured = knots.size();
-  for (const PredictedPose& pose : motion.predicted)
-    knots.push_back({motion.predicted_from + pose.ahead, pose.X_WT, pose.covariance, pose.deviation_bound});
+  knots.insert(knots.end(), motion.predicted.begin(), motion.predicted.end());
   if (knots.size() > measured) knots[measured].deviation_bound = boundOfFirst(motion, radius);
   return knots;
 }
 
 // After the last knot it goes on as between the last two; the error grows with the time.
-FrameKnot beyond(const FrameMotion& motion, const std::vector<FrameKnot>& knots, Time time) {
-  const FrameKnot& last = knots.back();
-  const FrameKnot& before = knots[knots.size() - 2];
-  const double step = toSeconds(last.time - before.time);
-  const double share = step > 0.0 ? toSeconds(time - last.time) / step : 0.0;
+PredictedFrame beyond(const std::vector<PredictedFrame>& knots, Duration ahead) {
+  const PredictedFrame& last = knots.back();
+  const PredictedFrame& before = knots[knots.size() - 2];
+  const double step = toSeconds(last.ahead - before.ahead);
+  const double share = step > 0.0 ? toSeconds(ahead - last.ahead) / step : 0.0;
   const Eigen::AngleAxisd turn(before.X_WM.linear().transpose() * last.X_WM.linear());
-  FrameKnot knot = last;
-  knot.time = time;
+  PredictedFrame knot = last;
+  knot.ahead = ahead;
   knot.X_WM.linear() = last.X_WM.linear() * Eigen::AngleAxisd(share * turn.angle(), turn.axis());
   knot.X_WM.translation() += share * (last.X_WM.translation() - before.X_WM.translation());
-  const double ahead = toSeconds(last.time - motion.predicted_from);
-  if (ahead > 0.0) knot.covariance *= std::pow(toSeconds(time - motion.predicted_from) / ahead, 2);
+  const double end = toSeconds(last.ahead);
+  if (end > 0.0) knot.covariance *= std::pow(toSeconds(ahead) / end, 2);
   return knot;
 }
 
@@ -90,11 +79,11 @@ Vector6d velocityAt(size_t newest, const std::vector<FramePose>& measured) {
 }
 
 // A frame that nobody predicts. Its error is that of a speed that is unknown by as much as it is.
-FrameKnot wentOn(const FrameMotion& motion, Time time) {
+PredictedFrame wentOn(const FrameMotion& motion, Duration ahead) {
   const FramePose& newest = motion.measured.back();
-  const double seconds = toSeconds(std::min(time - newest.stamp, kGoesOn));
+  const double seconds = toSeconds(std::min(motion.predicted_from + ahead - newest.stamp, kGoesOn));
   const Vector6d way = seconds * motion.velocity();
-  FrameKnot knot{time, newest.X_WM, Matrix6d::Zero(), 0.0};
+  PredictedFrame knot{ahead, newest.X_WM};
   const Eigen::Vector3d turn = way.tail<3>();
   if (!turn.isZero(0.0)) knot.X_WM.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()) * newest.X_WM.linear();
   knot.X_WM.translation() += way.head<3>();
@@ -103,32 +92,33 @@ FrameKnot wentOn(const FrameMotion& motion, Time time) {
   return knot;
 }
 
-std::optional<FrameKnot> knotAt(const FrameMotion& motion, const std::vector<FrameKnot>& knots, Time time) {
-  const auto is_before = [](const FrameKnot& knot, Time limit) { return knot.time < limit; };
-  const auto next = std::lower_bound(knots.begin(), knots.end(), time, is_before);
+std::optional<PredictedFrame> knotAt(const FrameMotion& motion, const std::vector<PredictedFrame>& knots, Time time) {
+  const Duration ahead = time - motion.predicted_from;
+  const auto is_before = [](const PredictedFrame& knot, Duration limit) { return knot.ahead < limit; };
+  const auto next = std::lower_bound(knots.begin(), knots.end(), ahead, is_before);
   if (next == knots.end()) {
-    if (motion.goes_on) return wentOn(motion, time);
-    const bool known = motion.predicted.size() > 1 && time - knots.back().time <= kMaxBeyond;
-    return known ? std::optional(beyond(motion, knots, time)) : std::nullopt;
+    if (motion.goes_on) return wentOn(motion, ahead);
+    const bool known = motion.predicted.size() > 1 && ahead - knots.back().ahead <= kMaxBeyond;
+    return known ? std::optional(beyond(knots, ahead)) : std::nullopt;
   }
-  if (next->time == time) return *next;
+  if (next->ahead == ahead) return *next;
   if (next == knots.begin()) return std::nullopt;
-  const FrameKnot& before = *std::prev(next);
-  const double share = toSeconds(time - before.time) / toSeconds(next->time - before.time);
-  return FrameKnot{time, Motion{before.X_WM, next->X_WM}.at(share),
-                   (1.0 - share) * before.covariance + share * next->covariance, next->deviation_bound};
+  const PredictedFrame& before = *std::prev(next);
+  const double share = toSeconds(ahead - before.ahead) / toSeconds(next->ahead - before.ahead);
+  return PredictedFrame{ahead, Motion{before.X_WM, next->X_WM}.at(share),
+                        (1.0 - share) * before.covariance + share * next->covariance, next->deviation_bound};
 }
 
 // Of the points within a radius, from a Motion from the first knot to the last.
-double deviationBound(const std::vector<FrameKnot>& knots, double radius) {
+double deviationBound(const std::vector<PredictedFrame>& knots, double radius) {
   double deviation = 0.0;
-  for (const FrameKnot& knot : knots)
+  for (const PredictedFrame& knot : knots)
     deviation = std::max(deviation, &knot == &knots.front() ? 0.0 : knot.deviation_bound);
   if (knots.size() == 2) return deviation;
   Path path;
-  for (const FrameKnot& knot : knots) {
+  for (const PredictedFrame& knot : knots) {
     const double turn = path.empty() ? 0.0 : Motion{path.back().X_MT, knot.X_WM}.angle();
-    path.push_back({knot.time - knots.front().time, knot.X_WM, chordError(radius, turn)});
+    path.push_back({knot.ahead - knots.front().ahead, knot.X_WM, chordError(radius, turn)});
   }
   return deviation + mergedMotion(path, 0, path.size() - 1, radius).deviation_bound;
 }
@@ -165,27 +155,27 @@ bool beginsWith(const std::string& name, const std::string& beginning) {
 
 }  // namespace
 
-std::optional<PredictedPose> FrameMotion::at(Time time) const {
-  const auto knot = knotAt(*this, knotsOf(*this, 0.0), time);
-  if (!knot) return std::nullopt;
-  return PredictedPose{knot->time - predicted_from, knot->X_WM, knot->covariance};
+std::optional<PredictedFrame> FrameMotion::at(Time time) const {
+  auto knot = knotAt(*this, knotsOf(*this, 0.0), time);
+  if (knot) knot->deviation_bound = 0.0;
+  return knot;
 }
 
 Vector6d FrameMotion::velocity() const { return velocityAt(measured.size() - 1, measured); }
 
-std::optional<PredictedPath> framePath(const FrameMotion& motion, Time begin, const PredictedPath& path,
-                                       double radius) {
-  const std::vector<FrameKnot> knots = knotsOf(motion, radius);
-  std::optional<FrameKnot> from = knotAt(motion, knots, begin);
+std::optional<std::vector<PredictedFrame>> framePath(const FrameMotion& motion, Time begin, const PredictedPath& path,
+                                                     double radius) {
+  const std::vector<PredictedFrame> knots = knotsOf(motion, radius);
+  std::optional<PredictedFrame> from = knotAt(motion, knots, begin);
   if (!from) return std::nullopt;
-  PredictedPath frame;
+  std::vector<PredictedFrame> frame;
   frame.push_back({Duration::zero(), from->X_WM, from->covariance});
   for (const PredictedPose& pose : path) {
     const auto to = knotAt(motion, knots, begin + pose.ahead);
     if (!to) return std::nullopt;
-    std::vector<FrameKnot> between{*from};
-    for (const FrameKnot& knot : knots) {
-      if (from->time < knot.time && knot.time < to->time) between.push_back(knot);
+    std::vector<PredictedFrame> between{*from};
+    for (const PredictedFrame& knot : knots) {
+      if (from->ahead < knot.ahead && knot.ahead < to->ahead) between.push_back(knot);
     }
     between.push_back(*to);
     frame.push_back({pose.ahead, to->X_WM, to->covariance, deviationBound(between, radius)});
@@ -235,7 +225,7 @@ void FrameMotionStore::placeAnew(const std::string& frame, std::vector<FramePose
   const Time last = placed.front().stamp - Duration(1);  // that it is in its old place
   const auto before = measured.empty() ? std::nullopt : motion.at(last);
   measured.erase(std::lower_bound(measured.begin(), measured.end(), last, isEarlier), measured.end());
-  if (before) measured.push_back({last, before->X_WT});
+  if (before) measured.push_back({last, before->X_WM});
   placed.front().anew = before.has_value();
   measured.insert(measured.end(), placed.begin(), placed.end());
   replace(frame, std::move(motion));
@@ -295,7 +285,7 @@ std::shared_ptr<const FrameMotion> FrameMotionStore::find(const std::string& fra
 std::optional<Eigen::Isometry3d> FrameMotionStore::at(const std::string& frame, Time time) const {
   const auto motion = find(frame);
   const auto pose = motion ? motion->at(time) : std::nullopt;
-  return pose ? std::optional(pose->X_WT) : std::nullopt;
+  return pose ? std::optional(pose->X_WM) : std::nullopt;
 }
 
 std::optional<Eigen::Isometry3d> FrameMotionStore::newest(const std::string& frame) const {

@@ -49,6 +49,7 @@ Guard::~Guard() = default;
 const Tool& Guard::tool(size_t body) const { return bodies_[body]->tool; }
 
 void Guard::sweep(const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report, bool arrived) {
+  assert(arrived || (newest_ && pose.stamp == newest_->stamp));
   if (arrived) observe(pose);
   const SteadyTime begin = options_.clock();
   displacements_->forgetUnused();
@@ -76,6 +77,8 @@ SweepSetup Guard::sweepSetup(const GuardedBody& body) const {
 
 // What is placed anew goes back to the pose before: nothing that moves is observed there. What jumps does not go on as it jumped.
 void Guard::observe(const PoseWithFrames& pose) {
+  assert(pose.bodies.size() == bodies_.size());
+  assert(!predictor_.isRigid() || pose.bodies.front().X_WB.isApprox(pose.X_WT));
   if (pose.anew && pose.anew->tool) predictor_.restartTool();
   if (!pose.jump.empty()) {
     predictor_.restart();

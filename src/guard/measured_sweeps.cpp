@@ -147,96 +147,121 @@ void MeasuredSweeps::sweepReplaced(const SweepSetup& setup, const PoseWithFrames
 
 void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<const Workpiece>& workpiece,
                                  Swept& swept, SweepReport& report, SweptObject& object) {
-  const PoseHistory& history = poses_.of(workpiece->frame);
-  const size_t last = history.size() - 1;
-  swept.before = swept.pose;
-  const size_t begin = history.lastUpTo(swept.pose);
-  const auto& from = deformationAt(history[begin].stamp, *workpiece, swept, object.behind);
-  const Workpiece& before = *swept.deformations.back();
-  const bool deformed = workpiece.get() != &before;
-  const MovingMesh mesh = movingMesh(*workpiece, *from, setup.displacements.between(from, workpiece));
-  const bool again = deformed && mesh.moved();
-  const size_t first = again ? std::min(begin, history.lastUpTo(before.stamp)) : begin;
-  object.workpiece = workpiece;
-  object.interval_start = history[begin].stamp;
-  object.result.clear();
-  const bool left_out = setup.several && staysOutOfReach(setup, history, first, last, mesh);
+  Passage passage = passageTo(setup, workpiece, swept, object);
+  const bool left_out =
+      setup.several && staysOutOfReach(setup, passage.history, passage.next, passage.last, passage.mesh);
   if (left_out) {
-    leaveOut(setup, /*has_new_poses=*/first == begin || begin < last, swept.cache, object.result);
+    leaveOut(setup, /*has_new_poses=*/passage.next == passage.begin || passage.begin < passage.last, swept.cache,
+             object.result);
   } else {
     cache_ = swept.cache;
     const ContactPolicy contact(setup.tool, *workpiece, &setup.allowed, &setup.intentions);
-    for (size_t start = first, end = last; start <= last; start = end + 1) {
-      end = history.endOfMotion(start, last);
-      const size_t begin_of_new = std::clamp(begin, start, end);
-      history.path_M(start, end, setup.tool.boundingRadius(), path_M_);
-      size_t i = start;
-      do {
-        const bool is_new = i >= begin_of_new;
-        const size_t to = beginMotion(setup, history, start, i, is_new ? end : begin_of_new);
-        confirm(is_new, object.result);
-        SweepResult& result =
-            sweep_checker_.check(setup.detector, {setup.tool, sub_motions_M_, mesh, setup.options, cache_, contact});
-        keep(is_new, history.share(begin, i, report.end), history.share(begin, to, report.end), result, object);
-        i = to;
-      } while (i < end);
-      if (end < last) cache_ = {};  // what was found before a change of place says nothing of where things are now
+    while (nextMotion(setup, object.result, passage)) {
+      SweepResult& result = sweep_checker_.check(
+          setup.detector, {setup.tool, sub_motions_M_, passage.mesh, setup.options, cache_, contact});
+      keep(passage, report.end, result, object);
     }
   }
-  if (deformed) swept.deformations.push_back(workpiece);
-  swept.grown = deformed;
-  swept.pose = history.newest().number;
+  endPassage(passage, workpiece, swept);
   if (!left_out) std::swap(swept.cache, cache_);
   report.start = std::min(report.start, object.interval_start);
 }
 
-// Finds the sub-motions of the next sweep, from pose i on, up to `last`. path_M_ begins with pose `first`. Returns its last pose.
-size_t MeasuredSweeps::beginMotion(const SweepSetup& setup, const PoseHistory& history, size_t first, size_t i,
-                                   size_t last) {
+// Of a mesh that has moved, the path since it was where it was before is swept again.
+MeasuredSweeps::Passage MeasuredSweeps::passageTo(const SweepSetup& setup,
+                                                  const std::shared_ptr<const Workpiece>& workpiece, Swept& swept,
+                                                  SweptObject& object) {
+  const PoseHistory& history = poses_.of(workpiece->frame);
+  swept.before = swept.pose;
+  const size_t begin = history.lastUpTo(swept.pose);
+  const Time stamp = history[begin].stamp;
+  const auto& from = deformationAt(stamp, *workpiece, swept);
+  const MovingMesh mesh = movingMesh(*workpiece, *from, setup.displacements.between(from, workpiece));
+  const auto& before = swept.deformations.back();
+  const bool again = workpiece != before && mesh.moved();
+  object.workpiece = workpiece;
+  object.interval_start = stamp;
+  object.behind = swept.incomplete ? from->stamp - stamp : Duration::zero();
+  object.result.clear();
+  return {history, mesh, begin, history.size() - 1, again ? std::min(begin, history.lastUpTo(before->stamp)) : begin};
+}
+
+void MeasuredSweeps::endPassage(const Passage& passage, const std::shared_ptr<const Workpiece>& workpiece,
+                                Swept& swept) {
+  const bool deformed = workpiece != swept.deformations.back();
+  if (deformed) swept.deformations.push_back(workpiece);
+  swept.grown = deformed;
+  swept.pose = passage.history.newest().number;
+}
+
+// Finds the sub-motions of the next sweep. Returns false after the last one.
+// @param found  by those before
+bool MeasuredSweeps::nextMotion(const SweepSetup& setup, const SweepResult& found, Passage& passage) {
+  passage.from = passage.to;
+  if (passage.from == passage.end && !nextSegment(setup, passage)) return false;
+  passage.to = cutMotion(setup, passage);
+  confirm(passage, found);
+  return true;
+}
+
+bool MeasuredSweeps::nextSegment(const SweepSetup& setup, Passage& passage) {
+  if (passage.next > passage.last) return false;
+  passage.start = passage.from = passage.next;
+  passage.end = passage.history.endOfMotion(passage.start, passage.last);
+  passage.next = passage.end + 1;
+  passage.history.path_M(passage.start, passage.end, setup.tool.boundingRadius(), path_M_);
+  return true;
+}
+
+// Returns the last pose of the motion, which has new poses only, or none.
+size_t MeasuredSweeps::cutMotion(const SweepSetup& setup, const Passage& passage) {
   setup.before_sweep();
   const double radius = setup.tool.boundingRadius();
   const double max_rotation = setup.options.max_rotation;
-  size_t end = last;
-  if (i < last)
-    end = first + endOfMergedMotion(path_M_, i - first, last - first, radius, kMergeTolerance * radius, max_rotation);
-  if (end > i + 1) {
-    sub_motions_M_.assign(1, mergedMotion(path_M_, i - first, end - first, radius));
+  const size_t first = passage.from - passage.start;  // in path_M_, as the following
+  size_t last = (passage.isNew() ? passage.end : passage.beginOfNew()) - passage.start;
+  if (first < last) last = endOfMergedMotion(path_M_, first, last, radius, kMergeTolerance * radius, max_rotation);
+  const size_t to_pose = passage.start + last;
+  if (last > first + 1) {
+    sub_motions_M_.assign(1, mergedMotion(path_M_, first, last, radius));
   } else {
-    const PoseSample& from = history[i];
-    const PoseSample& to = history[end];
+    const PoseSample& from = passage.history[passage.from];
+    const PoseSample& to = passage.history[to_pose];
     sub_motions_M_ = split({{from.X_WT, to.X_WT, to.deviation_bound}, {from.X_WM, to.X_WM}}, max_rotation, radius,
                            std::move(sub_motions_M_));
   }
-  return end;
+  return to_pose;
 }
 
 // Of poses that were swept before, what was found counts.
-void MeasuredSweeps::confirm(bool is_new, const SweepResult& found) {
+void MeasuredSweeps::confirm(const Passage& passage, const SweepResult& found) {
   cache_.already_confirmed.clear();
-  if (is_new) return;
+  if (passage.isNew()) return;
   cache_.already_confirmed = found.not_ruled_out;
   remove(cache_.already_confirmed, found.intended);
 }
 
-// Adds what a sweep met, which lasts from `begin` to `end` of the interval.
-void MeasuredSweeps::keep(bool is_new, double begin, double end, SweepResult& result, SweptObject& object) {
-  if (is_new) cache_.contact_normals.clear();
+// Adds what a sweep met, in fractions of the interval. What was found before a change of place says nothing of where things are now.
+void MeasuredSweeps::keep(const Passage& passage, Time end, SweepResult& result, SweptObject& object) {
+  if (passage.isNew()) cache_.contact_normals.clear();
   update(cache_, result);
+  const double from = passage.history.share(passage.begin, passage.from, end);
+  const double to = passage.history.share(passage.begin, passage.to, end);
   for (std::vector<TriangleContact>* const in_contact : {&result.in_contact, &result.allowed.in_contact})
-    rescale(*in_contact, begin, end);
+    rescale(*in_contact, from, to);
   unite(object.result, result);
+  if (passage.to == passage.end && passage.end < passage.last) cache_ = {};
 }
 
 // Returns the deformation that was there at the time of a pose, and forgets those before it.
-const std::shared_ptr<const Workpiece>& MeasuredSweeps::deformationAt(Time pose, const Workpiece& newest, Swept& swept,
-                                                                      Duration& behind) {
+const std::shared_ptr<const Workpiece>& MeasuredSweeps::deformationAt(Time pose, const Workpiece& newest,
+                                                                      Swept& swept) {
   while (swept.deformations.size() > 1 && swept.deformations[1]->stamp <= pose) {
     swept.deformations.erase(swept.deformations.begin());
   }
   swept.incomplete = forgetLateDeformations(newest, swept.deformations) || swept.incomplete;
   const auto& from = swept.deformations.front();
   swept.incomplete = swept.incomplete && from->stamp > pose;
-  behind = swept.incomplete ? from->stamp - pose : Duration::zero();
   return from;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "guard/displacements.h"
+#include "guard/moving_mesh.h"
 #include "guard/pose_histories.h"
 #include "guard/sweep_checker.h"
 #include "sweep_guard/guard/pose_with_frames.h"
@@ -69,17 +71,37 @@ class MeasuredSweeps {
     bool reported = false;     // of triangles that were replaced: by the last sweep
   };
 
+  // How far the sweep of a workpiece has come: poses by their indices.
+  struct Passage {
+    const PoseHistory& history;
+    MovingMesh mesh;
+    size_t begin;  // where the last sweep ended; what is before is swept again
+    size_t last;
+    size_t next;          // where the next segment begins
+    size_t start = next;  // of the segment, which path_M_ holds
+    size_t end = next;
+    size_t from = next;  // of the motion under test
+    size_t to = next;
+
+    size_t beginOfNew() const { return std::clamp(begin, start, end); }
+    bool isNew() const { return from >= beginOfNew(); }
+  };
+
   void begin(const SweepSetup& setup, const PoseWithFrames& pose, const std::optional<BodyPose>& arrived,
              const Workpieces& workpieces, SweepReport& report);
   void end(const PoseWithFrames& pose, SweepReport& report);
   void sweepObject(const SweepSetup& setup, const std::shared_ptr<const Workpiece>& workpiece, Swept& swept,
                    SweepReport& report, SweptObject& object);
   void sweepReplaced(const SweepSetup& setup, const PoseWithFrames& pose, SweepReport& report);
-  size_t beginMotion(const SweepSetup& setup, const PoseHistory& history, size_t first, size_t i, size_t last);
-  void confirm(bool is_new, const SweepResult& found);
-  void keep(bool is_new, double begin, double end, SweepResult& result, SweptObject& object);
-  static const std::shared_ptr<const Workpiece>& deformationAt(Time pose, const Workpiece& newest, Swept& swept,
-                                                               Duration& behind);
+  Passage passageTo(const SweepSetup& setup, const std::shared_ptr<const Workpiece>& workpiece, Swept& swept,
+                    SweptObject& object);
+  static void endPassage(const Passage& passage, const std::shared_ptr<const Workpiece>& workpiece, Swept& swept);
+  bool nextMotion(const SweepSetup& setup, const SweepResult& found, Passage& passage);
+  bool nextSegment(const SweepSetup& setup, Passage& passage);
+  size_t cutMotion(const SweepSetup& setup, const Passage& passage);
+  void confirm(const Passage& passage, const SweepResult& found);
+  void keep(const Passage& passage, Time end, SweepResult& result, SweptObject& object);
+  static const std::shared_ptr<const Workpiece>& deformationAt(Time pose, const Workpiece& newest, Swept& swept);
   void replace(Swept& swept, const std::shared_ptr<const Workpiece>& workpiece);
   Swept& lastSwept(const std::shared_ptr<const Workpiece>& workpiece);
   void forgetRemoved(const Workpieces& workpieces);

@@ -89,21 +89,20 @@ void PathInMesh::follow(const Tool& tool, const Eigen::Isometry3d& X_WT, const P
 }
 
 void PathInMesh::follow(const Tool& tool, const Eigen::Isometry3d& X_WT, const PredictedPath& path,
-                        const PredictedPath& frame) {
+                        const std::vector<PredictedFrame>& frame) {
   assert(!path.empty() && frame.size() == path.size() + 1);
   begin(tool);
   const Eigen::Isometry3d* from_WT = &X_WT;
-  const auto add = [&](Duration ahead, const Matrix6d& covariance_W, const PredictedPose& moved, double deviation) {
-    const Eigen::Isometry3d& X_WM = moved.X_WT;
-    path_M_.push_back({ahead, X_WM.inverse() * *from_WT, deviation});
-    const Matrix6d both_W = covariance_W + movedTo(from_WT->translation() - X_WM.translation(), moved.covariance);
-    covariances_M_.push_back(turnedCovariance(both_W, X_WM.linear().transpose()));
+  const auto add = [&](Duration ahead, const Matrix6d& covariance_W, const PredictedFrame& moved, double deviation) {
+    path_M_.push_back({ahead, moved.X_WM.inverse() * *from_WT, deviation});
+    const Matrix6d both_W = covariance_W + movedTo(from_WT->translation() - moved.X_WM.translation(), moved.covariance);
+    covariances_M_.push_back(turnedCovariance(both_W, moved.X_WM.linear().transpose()));
   };
   add(Duration::zero(), Matrix6d::Zero(), frame[0], 0.0);
   for (size_t i = 0; i < path.size(); ++i) {
-    const PredictedPose& moved = frame[i + 1];
+    const PredictedFrame& moved = frame[i + 1];
     deviations_.push_back(path[i].deviation_bound + moved.deviation_bound);
-    steps_W_.push_back({{*from_WT, path[i].X_WT, deviations_.back()}, {frame[i].X_WT, moved.X_WT}});
+    steps_W_.push_back({{*from_WT, path[i].X_WT, deviations_.back()}, {frame[i].X_WM, moved.X_WM}});
     from_WT = &path[i].X_WT;
     add(path[i].ahead, path[i].covariance, moved, chordError(steps_W_.back(), tool_radius_) + deviations_.back());
   }

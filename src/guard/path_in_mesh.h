@@ -31,7 +31,8 @@ class PathInMesh {
               const Eigen::Isometry3d& X_WM);
   /// Sets the path in a frame that moves as framePath() says. The covariances become those of the tool relative to the frame: the errors of both
   /// count as independent.
-  void follow(const Tool& tool, const Eigen::Isometry3d& X_WT, const PredictedPath& path, const PredictedPath& frame);
+  void follow(const Tool& tool, const Eigen::Isometry3d& X_WT, const PredictedPath& path,
+              const std::vector<PredictedFrame>& frame);
 
   PathSegment whole() const { return between(0, path_M_.size() - 1); }
 

@@ -32,7 +32,7 @@ void placeFollowed(const FrameMotions& frames, PoseWithFrames& pose) {
     pose.drifts.erase(frame);
     const auto placed = motion->at(pose.stamp);
     if (!placed) continue;
-    pose.X_WM[frame] = placed->X_WT;
+    pose.X_WM[frame] = placed->X_WM;
     if (!motion->goes_on) continue;
     const Duration age = std::max(pose.stamp - motion->measured.back().stamp, Duration::zero());
     pose.drifts[frame] = {motion->velocity(), age};

@@ -34,11 +34,11 @@ struct PredictedPathRequest {
   const Eigen::Isometry3d& X_WM;  ///< frame of the workpiece; taken to stay where it is, unless there is `frame`
   const std::shared_ptr<const Workpiece>& workpiece;
   const SweepPlan& plan;
-  const AllowedPairs* allowed = nullptr;     ///< null: none
-  const Intentions* intentions = nullptr;    ///< null: contact is meant nowhere
-  const IntendedTouches* touches = nullptr;  ///< null: none
-  const PredictedPath* frame = nullptr;      ///< framePath() along `path`, of a frame that moves on its own
-  ClosestApproaches* closest = nullptr;      ///< of the bodies of the tool; null: it is the only one
+  const AllowedPairs* allowed = nullptr;               ///< null: none
+  const Intentions* intentions = nullptr;              ///< null: contact is meant nowhere
+  const IntendedTouches* touches = nullptr;            ///< null: none
+  const std::vector<PredictedFrame>* frame = nullptr;  ///< framePath() along `path`, of a frame that moves on its own
+  ClosestApproaches* closest = nullptr;                ///< of the bodies of the tool; null: it is the only one
 };
 
 }  // namespace sweep_guard_core

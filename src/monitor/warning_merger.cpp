@@ -46,8 +46,8 @@ std::string WarningMerger::silence(size_t guard, const Instant& now) const {
   return {};
 }
 
-HeardWarning WarningMerger::merged(const Instant& now) const {
-  HeardWarning all;
+MergedWarning WarningMerger::merged(const Instant& now) const {
+  MergedWarning all;
   all.level = WarningLevel::kClear;
   all.covered_until = Time::max();
   all.valid_until = now.stamp + kWarningValid;
@@ -74,7 +74,7 @@ HeardWarning WarningMerger::merged(const Instant& now) const {
   return all;
 }
 
-void WarningMerger::addTo(HeardWarning& all, size_t guard) const {
+void WarningMerger::addTo(MergedWarning& all, size_t guard) const {
   const HeardWarning& warning = *newest_[guard];
   all.reasons |= warning.reasons;
   all.time_to_collision = earlier(all.time_to_collision, warning.time_to_collision);

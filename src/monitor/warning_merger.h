@@ -9,7 +9,7 @@
 
 namespace sweep_guard_core {
 
-/// What one guard says, or what several say together, with the names of msg/Warning.msg.
+/// What one guard says, with the names of msg/Warning.msg.
 struct HeardWarning {
   WarningLevel level = WarningLevel::kUnknown;
   std::uint32_t reasons = 0;
@@ -22,7 +22,19 @@ struct HeardWarning {
   bool intended = false;
   std::string text = {};
   Instant received = {};
-  /// Of several guards: index of the one whose warning is shown. Empty: only silent guards make the level.
+};
+
+/// What several guards say together, with the same names.
+struct MergedWarning {
+  WarningLevel level = WarningLevel::kUnknown;
+  std::uint32_t reasons = 0;
+  std::optional<Duration> time_to_collision = {};
+  Time covered_until = {};  ///< 0: never
+  Time valid_until = {};
+  bool acknowledged = false;
+  bool intended = false;
+  std::string text = {};
+  /// Index of the guard whose warning is shown. Empty: only silent guards make the level.
   std::optional<size_t> leader = {};
 };
 
@@ -43,17 +55,17 @@ class WarningMerger {
   /// Returns why a guard counts as silent; empty: it does not.
   std::string silence(size_t guard, const Instant& now) const;
 
-  /// Returns the warning of all guards, without `stamp`, `held` and `received`: the reasons of all, kNotCovered for one that
+  /// Returns the warning of all guards: the reasons of all, kNotCovered for one that
   /// is silent; the earliest times, `valid_until` of the guards that count and at most kWarningValid from now, and
   /// `covered_until` 0 if one is silent; `acknowledged` of the leader, `intended` of any; the level, and what each guard says
   /// that is not CLEAR. The leader is of this level, rather one that lasts than one that is held, rather one that is not
   /// acknowledged, with the earliest collision, with the oldest pose.
-  HeardWarning merged(const Instant& now) const;
+  MergedWarning merged(const Instant& now) const;
 
   const std::vector<std::string>& guards() const { return guards_; }
 
  private:
-  void addTo(HeardWarning& all, size_t guard) const;
+  void addTo(MergedWarning& all, size_t guard) const;
   bool leads(size_t guard, size_t other) const;
 
   std::vector<std::string> guards_;

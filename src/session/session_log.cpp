@@ -104,10 +104,10 @@ std::vector<std::int16_t> soundOf(const SessionLog& log, double rate) {
     const sweep_guard_core::Time end =
         last ? std::max(log.endTime(), warning.received) : log.warnings()[i + 1].received;
     const auto until = static_cast<size_t>(sweep_guard_core::toSeconds(end - begin) * rate);
-    sweep_guard_core::HeardWarning heard;
-    heard.level = warning.level;
-    heard.time_to_collision = warning.time_to_collision;
-    synthesizer.render(earconOf(heard, /*clear_tick=*/true), until - std::min(until, samples.size()), samples);
+    sweep_guard_core::MergedWarning said;
+    said.level = warning.level;
+    said.time_to_collision = warning.time_to_collision;
+    synthesizer.render(earconOf(said, /*clear_tick=*/true), until - std::min(until, samples.size()), samples);
   }
   return samples;
 }

@@ -47,7 +47,7 @@ void append(std::string& bytes, std::uint32_t value, int count) {
 
 }  // namespace
 
-Earcon earconOf(const HeardWarning& warning, bool clear_tick) {
+Earcon earconOf(const MergedWarning& warning, bool clear_tick) {
   switch (warning.level) {
     case WarningLevel::kClear:
       return clear_tick ? kTick : kSilence;

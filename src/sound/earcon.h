@@ -22,7 +22,7 @@ struct Earcon {
 /// Returns how a warning sounds, like a parking aid: beeps that follow each other faster the sooner the collision is, a steady
 /// tone in contact, a low double tone for kUnknown, a soft tick every 2 s for kClear. What is acknowledged is quieter.
 /// @param clear_tick  false: kClear is silent
-Earcon earconOf(const HeardWarning& warning, bool clear_tick);
+Earcon earconOf(const MergedWarning& warning, bool clear_tick);
 
 /// Returns the sound at one moment, in [-1, 1]. Beeps begin and end within 4 ms without a click.
 /// @param time  [s] since the begin of a beep, >= 0

@@ -206,7 +206,7 @@ class World {
       require(i == 0 || motion.measured[i - 1].stamp < motion.measured[i].stamp, "stamps ascend");
     }
     for (size_t i = 0; i < motion.predicted.size(); ++i) {
-      check(motion.predicted[i].X_WT);
+      check(motion.predicted[i].X_WM);
       require(motion.predicted[i].deviation_bound >= 0.0, "a bound is a length");
       require(i == 0 || motion.predicted[i - 1].ahead < motion.predicted[i].ahead, "predicted times ascend");
     }

@@ -88,6 +88,7 @@ class BodiesTest : public testing::Test {
 
   static PoseWithFrames ofBody(PoseWithFrames pose, size_t body) {
     pose.bodies = {pose.bodies[body]};
+    pose.X_WT = pose.bodies[0].X_WB;
     return pose;
   }
 

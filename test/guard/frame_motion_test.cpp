@@ -11,7 +11,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-PredictedPose predictedAlong(Duration ahead, double x, double variance) {
+PredictedFrame predictedAlong(Duration ahead, double x, double variance) {
   return {ahead, along(x), variance * Matrix6d::Identity()};
 }
 
@@ -26,14 +26,14 @@ FrameMotion motion() {
 
 TEST(FrameMotionTest, IsMeasuredUpToThePrediction) {
   EXPECT_FALSE(motion().at(Time(-1ms)));
-  EXPECT_NEAR(motion().at(Time(0ms))->X_WT.translation().x(), 0.0, 1e-12);
-  EXPECT_NEAR(motion().at(Time(25ms))->X_WT.translation().x(), 0.25, 1e-12);
-  EXPECT_NEAR(motion().at(Time(80ms))->X_WT.translation().x(), 2.65, 1e-12);
+  EXPECT_NEAR(motion().at(Time(0ms))->X_WM.translation().x(), 0.0, 1e-12);
+  EXPECT_NEAR(motion().at(Time(25ms))->X_WM.translation().x(), 0.25, 1e-12);
+  EXPECT_NEAR(motion().at(Time(80ms))->X_WM.translation().x(), 2.65, 1e-12);
   EXPECT_NEAR(motion().at(Time(80ms))->covariance(0, 0), 0.5, 1e-12);
 }
 
 TEST(FrameMotionTest, GoesOnForAQuarterOfASecond) {
-  EXPECT_NEAR(motion().at(Time(430ms))->X_WT.translation().x(), 8.0, 1e-12);
+  EXPECT_NEAR(motion().at(Time(430ms))->X_WM.translation().x(), 8.0, 1e-12);
   EXPECT_NEAR(motion().at(Time(430ms))->covariance(0, 0), 16.0, 1e-9);
   EXPECT_TRUE(motion().at(Time(480ms)));
   EXPECT_FALSE(motion().at(Time(481ms)));
@@ -42,10 +42,10 @@ TEST(FrameMotionTest, GoesOnForAQuarterOfASecond) {
 TEST(FrameMotionTest, EndsWithTheNewestPoseIfNothingIsPredicted) {
   FrameMotion measured = motion();
   measured.predicted.clear();
-  EXPECT_NEAR(measured.at(Time(40ms))->X_WT.translation().x(), 0.4, 1e-12);
+  EXPECT_NEAR(measured.at(Time(40ms))->X_WM.translation().x(), 0.4, 1e-12);
   EXPECT_FALSE(measured.at(Time(41ms)));
-  EXPECT_FALSE(framePath(measured, Time(40ms), {predictedAlong(10ms, 0.0, 0.0)}, 1.0));
-  EXPECT_FALSE(framePath(motion(), Time(-1ms), {predictedAlong(10ms, 0.0, 0.0)}, 1.0));
+  EXPECT_FALSE(framePath(measured, Time(40ms), {{10ms}}, 1.0));
+  EXPECT_FALSE(framePath(motion(), Time(-1ms), {{10ms}}, 1.0));
 }
 
 // How far a point may be from where the frame is at a time: 0 at a pose.
@@ -53,7 +53,7 @@ double deviationAt(const FrameMotion& motion, Time time) {
   for (const FramePose& pose : motion.measured) {
     if (pose.stamp >= time) return pose.stamp == time ? 0.0 : pose.deviation_bound;
   }
-  for (const PredictedPose& pose : motion.predicted) {
+  for (const PredictedFrame& pose : motion.predicted) {
     const Time stamp = motion.predicted_from + pose.ahead;
     if (stamp >= time) return stamp == time ? 0.0 : pose.deviation_bound;
   }
@@ -83,13 +83,13 @@ TEST(FrameMotionTest, NoPointIsFartherFromThePathThanItsBound) {
     const Eigen::Vector3d p_M = radius * random.direction();
     Duration from{};
     for (size_t i = 0; i < times.size(); ++i) {
-      const Motion straight{(*path)[i].X_WT, (*path)[i + 1].X_WT};
+      const Motion straight{(*path)[i].X_WM, (*path)[i + 1].X_WM};
       double farthest = 0.0;
       for (int k = 0; k <= 50; ++k) {
         const Duration time = from + (times[i].ahead - from) * k / 50;
         const Eigen::Vector3d meant_W = straight.at(k / 50.0) * p_M;
         const double off = deviationAt(motion, Time(7ms) + time);
-        farthest = std::max(farthest, off + (motion.at(Time(7ms) + time)->X_WT * p_M - meant_W).norm());
+        farthest = std::max(farthest, off + (motion.at(Time(7ms) + time)->X_WM * p_M - meant_W).norm());
       }
       const double bound = (*path)[i + 1].deviation_bound;
       EXPECT_LE(farthest, bound + 1e-9);
@@ -154,8 +154,8 @@ FrameMotion seldomMeasured() {
 TEST(FrameThatGoesOnTest, IsWhereItsLastSpeedPutsIt) {
   const auto pose = seldomMeasured().at(Time(99ms + 400ms));
   ASSERT_TRUE(pose);
-  EXPECT_NEAR(pose->X_WT.translation().x(), 0.3 * 0.499, 1e-9);
-  const Eigen::AngleAxisd turn(pose->X_WT.linear());
+  EXPECT_NEAR(pose->X_WM.translation().x(), 0.3 * 0.499, 1e-9);
+  const Eigen::AngleAxisd turn(pose->X_WM.linear());
   EXPECT_NEAR(turn.angle(), M_PI_2 * 0.499, 1e-9);
   EXPECT_FALSE(seldomMeasured().at(Time(-1ms)));
 }
@@ -181,16 +181,15 @@ TEST(FrameThatGoesOnTest, ItsSpeedIsThatOfTwentyMillisecondsAtLeast) {
 }
 
 TEST(FrameThatGoesOnTest, HasAPathOfAnyLength) {
-  const auto path =
-      framePath(seldomMeasured(), Time(150ms), {predictedAlong(10ms, 0.0, 0.0), predictedAlong(1s, 0.0, 0.0)}, 1.0);
+  const auto path = framePath(seldomMeasured(), Time(150ms), {{10ms}, {1s}}, 1.0);
   ASSERT_TRUE(path);
-  EXPECT_NEAR(path->back().X_WT.translation().x(), 0.3 * 1.15, 1e-9);
+  EXPECT_NEAR(path->back().X_WM.translation().x(), 0.3 * 1.15, 1e-9);
   EXPECT_NEAR(path->back().deviation_bound, 0.0, 1e-9);
 }
 
 TEST(FrameThatGoesOnTest, RestsTwoSecondsAfterItWasHeardLast) {
   for (const auto later : {2s, 60s})
-    EXPECT_NEAR(seldomMeasured().at(Time(99ms + later))->X_WT.translation().x(), 0.3 * 2.099, 1e-9);
+    EXPECT_NEAR(seldomMeasured().at(Time(99ms + later))->X_WM.translation().x(), 0.3 * 2.099, 1e-9);
 }
 
 // Its first step there may be from a place that is wrong by a millimetre: within a millisecond, that would be 1 m/s.

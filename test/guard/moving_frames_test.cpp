@@ -263,7 +263,7 @@ TEST_F(PredictedFramesTest, AContactIsProbableWhereTheOtherMayErr) {
     return predict({0, 0, 0}, {0, 0, 0}, motion).probability(PredictionInterval::kConsidered, 1s);
   };
   const double certain = probability();
-  for (PredictedPose& pose : motion.predicted) pose.covariance(1, 1) = std::pow(0.2 * toSeconds(pose.ahead), 2);
+  for (PredictedFrame& pose : motion.predicted) pose.covariance(1, 1) = std::pow(0.2 * toSeconds(pose.ahead), 2);
   guard_.reset();
   EXPECT_GT(probability(), certain + 0.05);
 }
@@ -305,7 +305,7 @@ TEST_F(PredictedFramesTest, NoPredictedContactIsMissed) {
     for (int k = 0; k <= 200; ++k) {
       const Duration ahead = prediction.path.back().ahead * k / 200;
       const Time time = prediction.stamp + ahead;
-      if (!overlap(tool, course.at(time), other, motion.at(time)->X_WT)) continue;
+      if (!overlap(tool, course.at(time), other, motion.at(time)->X_WM)) continue;
       ++overlaps;
       ASSERT_TRUE(contact && *contact <= ahead) << "pair " << i;
       break;

@@ -305,6 +305,7 @@ class ArmAmongHulls {
 
   static PoseWithFrames ofBody(PoseWithFrames pose, size_t body) {
     pose.bodies = {pose.bodies[body]};
+    pose.X_WT = pose.bodies[0].X_WB;
     return pose;
   }
 
@@ -416,8 +417,8 @@ PredictedPath randomSteps(Random& random, const Eigen::Isometry3d& X_WT) {
   return path;
 }
 
-PredictedPath randomFrame(Random& random) {
-  PredictedPath frame;
+std::vector<PredictedFrame> randomFrame(Random& random) {
+  std::vector<PredictedFrame> frame;
   Eigen::Isometry3d X = random.pose(random.inBox({0.3, 0.3, 0.3}));
   for (int i = 0; i <= 2; ++i) {
     frame.push_back({i * 50ms, X, i == 0 ? Matrix6d::Zero() : randomCovariance(random), i == 0 ? 0.0 : 0.001});

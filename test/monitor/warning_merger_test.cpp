@@ -37,12 +37,12 @@ HeardWarning said(WarningLevel level, Duration time = {}) {
 
 class WarningMergerTest : public testing::Test {
  protected:
-  HeardWarning merged(WarningLevel left, WarningLevel right) {
+  MergedWarning merged(WarningLevel left, WarningLevel right) {
     merger_.hear(kLeft, said(left));
     merger_.hear(kRight, said(right));
     return merger_.merged(instantAt({}));
   }
-  HeardWarning merged(const HeardWarning& left, const HeardWarning& right) {
+  MergedWarning merged(const HeardWarning& left, const HeardWarning& right) {
     merger_.hear(kLeft, left);
     merger_.hear(kRight, right);
     return merger_.merged(instantAt({}));
@@ -52,7 +52,7 @@ class WarningMergerTest : public testing::Test {
 };
 
 TEST_F(WarningMergerTest, IsClearOnlyIfEachGuardIs) {
-  const HeardWarning clear = merged(kClear, kClear);
+  const MergedWarning clear = merged(kClear, kClear);
   EXPECT_EQ(clear.level, kClear);
   EXPECT_EQ(clear.text, "CLEAR");
   EXPECT_EQ(clear.reasons, 0U);
@@ -66,7 +66,7 @@ TEST_F(WarningMergerTest, AContactStaysVisibleBesideAGuardThatKnowsNothing) {
   for (const WarningLevel level : {kConsidered, kReflex, kContact}) {
     HeardWarning unknown = said(kUnknown);
     unknown.reasons = kMeshStale;
-    const HeardWarning both = merged(unknown, said(level));
+    const MergedWarning both = merged(unknown, said(level));
     EXPECT_EQ(both.level, level);
     EXPECT_EQ(both.leader, kRight);
     EXPECT_EQ(both.reasons, kMeshStale);
@@ -76,7 +76,7 @@ TEST_F(WarningMergerTest, AContactStaysVisibleBesideAGuardThatKnowsNothing) {
 TEST_F(WarningMergerTest, IsUnknownBeforeEachGuardHasSpoken) {
   EXPECT_EQ(merger_.merged(instantAt({})).level, kUnknown);
   merger_.hear(kLeft, said(kClear));
-  const HeardWarning one = merger_.merged(instantAt({}));
+  const MergedWarning one = merger_.merged(instantAt({}));
   EXPECT_EQ(one.level, kUnknown);
   EXPECT_EQ(one.reasons, kNotCovered);
   EXPECT_EQ(one.leader, std::nullopt);
@@ -90,7 +90,7 @@ TEST_F(WarningMergerTest, IsUnknown200MillisecondsAfterAGuardFellSilent) {
   later.valid_until += milliseconds(100);
   merger_.hear(kRight, later);
   EXPECT_EQ(merger_.merged(instantAt(milliseconds(200))).level, kClear);
-  const HeardWarning silent = merger_.merged(instantAt(milliseconds(201)));
+  const MergedWarning silent = merger_.merged(instantAt(milliseconds(201)));
   EXPECT_EQ(silent.level, kUnknown);
   EXPECT_EQ(silent.text, "UNKNOWN: /left: silent for 0.20 s");
 }
@@ -101,10 +101,10 @@ TEST_F(WarningMergerTest, AWarningThatCameLateCountsOnlyAsLongAsItIsValid) {
   delayed.received = instantAt(milliseconds(150));
   merger_.hear(kRight, delayed);
   merger_.hear(kLeft, said(kClear, milliseconds(150)));
-  const HeardWarning valid = merger_.merged(instantAt(milliseconds(200)));
+  const MergedWarning valid = merger_.merged(instantAt(milliseconds(200)));
   EXPECT_EQ(valid.level, kClear);
   EXPECT_EQ(valid.valid_until, instantAt(milliseconds(200)).stamp);
-  const HeardWarning over = merger_.merged(instantAt(milliseconds(210)));
+  const MergedWarning over = merger_.merged(instantAt(milliseconds(210)));
   EXPECT_EQ(over.level, kUnknown);
   EXPECT_EQ(over.text, "UNKNOWN: /right: newest warning came 0.15 s late, or clocks differ");
 }
@@ -114,7 +114,7 @@ TEST_F(WarningMergerTest, AGuardWhoseClockIsAheadCountsAsSilent) {
   ahead.valid_until += WarningMerger::kMaxLead;
   EXPECT_EQ(merged(said(kClear), ahead).level, kClear);
   ahead.valid_until += milliseconds(20);
-  const HeardWarning both = merged(said(kClear), ahead);
+  const MergedWarning both = merged(said(kClear), ahead);
   EXPECT_EQ(both.level, kUnknown);
   EXPECT_EQ(both.text, "UNKNOWN: /right: warning is 0.12 s ahead: clocks differ");
 }
@@ -162,7 +162,7 @@ TEST_F(WarningMergerTest, PromisesNoMoreThanTheGuardThatPromisesLeast) {
   less.valid_until -= milliseconds(150);
   less.covered_until -= milliseconds(150);
   less.stamp -= milliseconds(50);
-  const HeardWarning both = merged(said(kClear), less);
+  const MergedWarning both = merged(said(kClear), less);
   EXPECT_EQ(both.valid_until, less.valid_until);
   EXPECT_EQ(both.covered_until, less.covered_until);
   EXPECT_EQ(both.leader, kRight) << "its pose is older";
@@ -198,7 +198,7 @@ TEST(WarningMergerModelTest, AgreesOnRandomWarningsOfFiveGuards) {
     for (const WarningLevel level : {kConsidered, kReflex, kContact}) {
       if (levels[static_cast<size_t>(level)] > 0) expected = level;
     }
-    const HeardWarning merged = merger.merged(instantAt(time));
+    const MergedWarning merged = merger.merged(instantAt(time));
     ASSERT_EQ(merged.level, expected) << step;
     ASSERT_EQ(silent > 0, merged.covered_until == Time()) << step;
     ASSERT_LE(merged.valid_until, instantAt(time).stamp + kWarningValid);

@@ -10,15 +10,15 @@ namespace {
 
 constexpr size_t kRate = 44100;
 
-HeardWarning at(WarningLevel level, std::optional<double> seconds = {}, bool acknowledged = false) {
-  HeardWarning warning;
+MergedWarning at(WarningLevel level, std::optional<double> seconds = {}, bool acknowledged = false) {
+  MergedWarning warning;
   warning.level = level;
   if (seconds) warning.time_to_collision = fromSeconds(*seconds);
   warning.acknowledged = acknowledged;
   return warning;
 }
 
-HeardWarning considered(double seconds) { return at(WarningLevel::kConsidered, seconds); }
+MergedWarning considered(double seconds) { return at(WarningLevel::kConsidered, seconds); }
 
 std::vector<std::int16_t> render(const Earcon& earcon, double seconds) {
   std::vector<std::int16_t> samples;
@@ -111,7 +111,7 @@ TEST(SynthesizerTest, NeverClicks) {
   std::uint32_t random = 1;
   for (int i = 0; i < 3000; ++i) {
     random = random * 1664525U + 1013904223U;
-    HeardWarning cue = at(static_cast<WarningLevel>((random >> 16U) % 5), (random >> 8U) % 1000 / 1000.0);
+    MergedWarning cue = at(static_cast<WarningLevel>((random >> 16U) % 5), (random >> 8U) % 1000 / 1000.0);
     cue.acknowledged = (random >> 24U) % 2 == 0;
     synthesizer.render(earconOf(cue, true), (random >> 20U) % 1500, samples);
   }

@@ -316,7 +316,7 @@ class LateSession {
     if (stamp <= scene_.tray_W.stamps[newest] && stamp >= scene_.tray_W.stamps.front()) {
       placed.push_back({stamp, trayPose(stamp)});
     } else if (X_old) {
-      placed.push_back({stamp, X_newest * scene_.change * X_newest.inverse() * X_old->X_WT});
+      placed.push_back({stamp, X_newest * scene_.change * X_newest.inverse() * X_old->X_WM});
     }
     for (const FramePose& pose : motion->measured) {
       if (stamp < pose.stamp) placed.push_back({pose.stamp, trayPose(pose.stamp)});

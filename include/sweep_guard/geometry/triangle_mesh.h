@@ -37,6 +37,8 @@ class TriangleMesh {
   ///     environment variable SWEEP_GUARD_SIMD is wrong (simd::kernels())
   TriangleMesh(const std::vector<Eigen::Vector3d>& vertices_M, std::vector<Triangle> triangles, bool is_sheet = false,
                double rounded = 0.0);
+  /// `rounded` comes after `is_sheet`.
+  TriangleMesh(const std::vector<Eigen::Vector3d>&, std::vector<Triangle>, double) = delete;
 
   /// Replaces the positions of all vertices in one pass; rebuilds no structure. Exchanges buffers and allocates
   /// nothing, except for a spare buffer at the first call on a mesh with renumbered vertices. rounding() is then that of

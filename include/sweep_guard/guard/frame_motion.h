@@ -27,20 +27,28 @@ struct FramePose {
   bool left_out = false;  ///< poses between this one and the one before were dropped
 };
 
+/// The pose of a frame M, measured or predicted, at a time.
+struct PredictedFrame {
+  Duration ahead{};                                        ///< after the time that the motion is predicted from
+  Eigen::Isometry3d X_WM = Eigen::Isometry3d::Identity();  ///< most likely pose [m]
+  Matrix6d covariance = Matrix6d::Zero();                  ///< of its error, as PredictedPose::covariance
+  double deviation_bound = 0.0;                            ///< as FramePose::deviation_bound
+};
+
 /// How a frame moves on its own: a body of another tool, whose guard measures and predicts it, or a frame that tf measures and nobody
 /// predicts. Between two poses, measured or predicted, it moves as a Motion, to within their deviation bounds.
 struct FrameMotion {
   std::vector<FramePose> measured;  ///< at least one; stamps ascend
   Time predicted_from;              ///< stamp at which `predicted` begins; means nothing without it
   /// Its first pose is the one at `predicted_from`, without error; empty: where the frame goes is not known.
-  PredictedPath predicted = {};
+  std::vector<PredictedFrame> predicted = {};
   /// Without a prediction: it goes on at velocity() for 2 s, and then rests. The standard deviation of its error, over all axes, is
   /// speed times time.
   bool goes_on = false;
 
   /// Returns the pose at a time: measured up to `predicted_from`, then predicted. For 0.25 s after its end, the prediction goes
-  /// on at the velocity of its last step. Empty: before the first measured pose and after that, unless it `goes_on`.
-  std::optional<PredictedPose> at(Time time) const;
+  /// on at the velocity of its last step. Without a bound. Empty: before the first measured pose and after that, unless it `goes_on`.
+  std::optional<PredictedFrame> at(Time time) const;
 
   /// Returns the velocity of its origin [m/s] and the angular velocity [rad/s], along the axes of W, over the last 20 ms or more of
   /// the measured poses; 0 if there are not two. After less time since it was placed anew, it is that from before, turned with it.
@@ -50,13 +58,14 @@ struct FrameMotion {
 /// The motions of frames by their names, none null.
 using FrameMotions = std::map<std::string, std::shared_ptr<const FrameMotion>>;
 
-/// Returns how a frame M moves along a path: its pose X_WM, in the place of X_WT, at the begin and at each pose of the path. Empty if
-/// that is not known up to its end.
+/// Returns how a frame moves along a path: its pose at the begin and at each pose of the path. Empty if that is not known up to its
+/// end.
 /// @param begin   stamp at which the path begins
 /// @param path    only its times count
 /// @param radius  largest distance of a point of the workpiece from the origin of the frame [m], >= 0: their deviation bounds hold
 ///     for such points
-std::optional<PredictedPath> framePath(const FrameMotion& motion, Time begin, const PredictedPath& path, double radius);
+std::optional<std::vector<PredictedFrame>> framePath(const FrameMotion& motion, Time begin, const PredictedPath& path,
+                                                     double radius);
 
 /// Keeps the newest motions of frames that move on their own. Any thread.
 class FrameMotionStore {

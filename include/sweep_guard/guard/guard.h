@@ -52,8 +52,8 @@ class Guard {
 
   /// Adds a pose that the next sweep passes through. A workpiece whose frame is missing at the pose of the sweep is
   /// reported as unplaced. Once its frame is known again, it is swept through the added poses that hold its frame.
-  /// @param pose  finite, rotations orthonormal, stamp not earlier than the previous pose's, PoseWithFrames::bodies as many
-  ///     as the robot's, with its state; one, at `X_WT`, without a robot; not checked. After time went back, call reset() first.
+  /// @param pose  finite, rotations orthonormal, stamp not earlier than the previous pose's (not checked), PoseWithFrames::bodies
+  ///     as many as the robot's, with its state; one, at `X_WT`, without a robot (asserted). After time went back, call reset() first.
   ///     Where a static transform has changed: first the pose in the old placement, 1 ns earlier, then the poses of the way to it in
   ///     the new one, with its stamp and PoseWithFrames::anew, then the pose itself in the new one
   void pass(const PoseWithFrames& pose);
@@ -61,10 +61,12 @@ class Guard {
   /// Sweeps from the pose of the last sweep, through the poses passed since, to this pose. If the detector fails or
   /// memory runs out during a workpiece, the report names the workpiece, and the others are swept. Throws only
   /// std::bad_alloc, outside of the sweeps.
-  /// @param pose  as for pass(); not checked
+  /// @param pose  as for pass(). Where it places the frames of follow(), see placeFollowed(), counts after the sweep: for contact as
+  ///     intended, isWithin() and the order in which bodies are predicted
   /// @param[out] report  overwritten; its buffers are used again
-  /// @param arrived  false: `pose` is that of the last sweep, and no pose was passed since (not checked). Sweeps on against the
-  ///     workpieces in frames of follow() that are known further than then; the others are tested where the tool stands
+  /// @param arrived  false: `pose` is that of the last sweep (its stamp is asserted), placed by placeFollowed() once more, and no pose
+  ///     was passed since (not checked). Sweeps on against the workpieces in frames of follow() that are known further than then; the
+  ///     others are tested where the tool stands
   void sweep(const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report, bool arrived = true);
 
   /// Sets how frames move on their own, from the next pass(), sweep() and predict() on: PoseWithFrames::X_WM does not count for

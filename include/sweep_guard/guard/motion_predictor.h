@@ -43,6 +43,7 @@ class MotionPredictor {
 
   /// Exchanges the robot for one with the same joints.
   void exchange(std::shared_ptr<const Robot>& robot) { std::swap(robot_, robot); }
+  bool isRigid() const { return robot_ == nullptr; }  ///< the tool is one body
 
  private:
   std::vector<RobotState> statesAlong(const PredictedMotion& motion) const;

@@ -54,7 +54,7 @@ struct PoseWithFrames {
   Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< translation [m]
   std::map<std::string, Eigen::Isometry3d> X_WM =
       {};                               ///< [m], by name of M; a frame whose transform is missing is left out
-  BodyPoses bodies = {BodyPose{X_WT}};  ///< of each body of the guarded tool; a rigid one is one body, in T
+  BodyPoses bodies = {BodyPose{X_WT}};  ///< of each body of the guarded tool; a rigid one is one body, which is at X_WT
   RobotState state = {};                ///< of the robot whose bodies these are; without joints for a rigid tool
   /// What jumped on the way to this pose, in words, as in "joint 'elbow' jumped: 130 rad/s": the motion does not go on from
   /// there. Empty: nothing did.

@@ -155,31 +155,35 @@ void GuardThread::setPriority() const {
   if (!refusal.empty()) ROS_WARN("%s", refusal.c_str());
 }
 
-// Sweeps the poses, also those that are taken during a prediction, until there is other work, or it is too early for the next
-// prediction. No pose is left out: what the tool met on the way to it would be, too. One that fails is tried again, and the others
-// wait, so nothing is clear meanwhile.
+// No pose is left out: what the tool met on the way to it would be, too. One that fails is tried again, and the others wait, so
+// nothing is clear meanwhile.
 void GuardThread::run() {
   top_->enter();
   top_->attempt([this] { setPriority(); });
-  while (takeWork()) {
-    do {
-      while (next_ < work_.poses.size()) {
-        bool taken = false;
-        {
-          const ThreadTop::Piece piece(*top_);
-          taken = takeNext();
-        }
-        if (taken) {
-          predictIfDue();
-        } else if (dependencies_.queue.stopped()) {
-          return;
-        } else {
-          pauseAfterFailure();
-        }
-      }
-      dependencies_.queue.swept({});
-    } while (predictIfDue() && (next_ < work_.poses.size() || !dependencies_.queue.hasWork()));
+  while (hasPose()) {
+    bool taken = false;
+    {
+      const ThreadTop::Piece piece(*top_);
+      taken = takeNext();
+    }
+    if (taken) {
+      predictIfDue();
+    } else if (!pauseAfterFailure()) {
+      return;
+    }
   }
+}
+
+// Waits for a pose. Meanwhile predicts, until there is other work or it is too early for the next prediction, and runs what is not a
+// pose. Returns false after stop().
+bool GuardThread::hasPose() {
+  while (next_ == work_.poses.size()) {
+    dependencies_.queue.swept({});
+    const bool predicted = predictIfDue();
+    if (next_ < work_.poses.size()) return true;
+    if ((!predicted || dependencies_.queue.hasWork()) && !takeWork()) return false;
+  }
+  return true;
 }
 
 // Waits for work, or until a prediction is due. Runs what is not a pose. Returns false after stop().
@@ -196,10 +200,12 @@ bool GuardThread::takeWork() {
   return true;
 }
 
-// Tasks run between two tries: a reset drops the pose, a new parameter may end the failure.
-void GuardThread::pauseAfterFailure() {
+// Tasks run between two tries: a reset drops the pose, a new parameter may end the failure. Returns false after stop().
+bool GuardThread::pauseAfterFailure() {
+  if (dependencies_.queue.stopped()) return false;
   std::this_thread::sleep_for(kPauseAfterFailure);
   for (const auto& task : dependencies_.queue.takeTasks()) top_->run(task);
+  return true;
 }
 
 // Sweeps to the next pose, or passes it. Returns false if that failed: it is the next one still.

@@ -68,9 +68,10 @@ class GuardThread {
   void runInTime(const std::function<void()>& task, const std::string& otherwise);
   void setPriority() const;
   void run();
+  bool hasPose();
   bool takeWork();
   bool takeNext();
-  void pauseAfterFailure();
+  bool pauseAfterFailure();
   bool timeToPredict() const;
   bool predictIfDue();
   std::optional<sweep_guard_core::SteadyTime> latestPrediction() const;

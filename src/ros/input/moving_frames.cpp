@@ -123,7 +123,7 @@ bool MovingFrames::placeAnew(const std::string& frame, Followed& followed, Time 
     followed.newest.X = X;
     if (from < followed.newest.stamp) sampleAt(frame, from);
     const auto X_old = motion->at(from);
-    if (samples_.empty() && X_old) samples_.push_back({from, moved_W * X_old->X_WT});
+    if (samples_.empty() && X_old) samples_.push_back({from, moved_W * X_old->X_WM});
     for (const sweep_guard_core::FramePose& pose : motion->measured) {
       if (from < pose.stamp) sampleAt(frame, pose.stamp);
     }

@@ -32,13 +32,13 @@ double checked(double deviation_bound) {
   throw InvalidInput("a deviation bound of its poses is no length from 0 to 1e7 m");
 }
 
-sweep_guard_core::PredictedPath pathFrom(const sweep_guard::BodyMotion& motion) {
+std::vector<sweep_guard_core::PredictedFrame> pathFrom(const sweep_guard::BodyMotion& motion) {
   if (motion.predicted.size() != motion.predicted_deviation_bounds.size())
     throw InvalidInput("there are not as many deviation bounds as predicted poses");
-  sweep_guard_core::PredictedPath path;
+  std::vector<sweep_guard_core::PredictedFrame> path;
   for (size_t i = 0; i < motion.predicted.size(); ++i) {
-    path.push_back(fromMsg(motion.predicted[i]));
-    path.back().deviation_bound = checked(motion.predicted_deviation_bounds[i]);
+    const sweep_guard_core::PredictedPose pose = fromMsg(motion.predicted[i]);
+    path.push_back({pose.ahead, pose.X_WT, pose.covariance, checked(motion.predicted_deviation_bounds[i])});
     const bool ascends = path.size() == 1 ? path[0].ahead == sweep_guard_core::Duration::zero()
                                           : path.back().ahead > path[path.size() - 2].ahead;
     if (!ascends) throw InvalidInput("predicted poses do not begin at 0 s and ascend in time");

@@ -152,7 +152,7 @@ void WarningMergerNode::publishFlags() {
 
 // Called under the lock.
 sweep_guard::Warning WarningMergerNode::merged(const sweep_guard_core::Instant& now) const {
-  const sweep_guard_core::HeardWarning all = merger_.merged(now);
+  const sweep_guard_core::MergedWarning all = merger_.merged(now);
   sweep_guard::Warning message = all.leader && !ending_ ? newest_[*all.leader] : sweep_guard::Warning();
   message.valid_until = toMsg(all.valid_until);
   if (ending_) {

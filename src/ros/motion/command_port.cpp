@@ -1,8 +1,5 @@
 #include "ros/motion/command_port.h"
 
-#include <geometry_msgs/PoseStamped.h>
-#include <geometry_msgs/Twist.h>
-#include <geometry_msgs/TwistStamped.h>
 #include <boost/make_shared.hpp>
 
 #include <algorithm>

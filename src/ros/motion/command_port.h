@@ -1,5 +1,8 @@
 #pragma once
 
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/Twist.h>
+#include <geometry_msgs/TwistStamped.h>
 #include <ros/node_handle.h>
 
 #include <functional>
@@ -7,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "ros/connection/bounded.h"
 #include "ros/motion/command_frames.h"
@@ -23,7 +27,8 @@ class CommandPort {
   static constexpr char kTopic[] = "command";
 
   using ToolPose = sweep_guard_core::MotionInputs::ToolPose;
-  using Message = boost::shared_ptr<const void>;
+  using Message = std::variant<geometry_msgs::TwistConstPtr, geometry_msgs::TwistStampedConstPtr,
+                               geometry_msgs::PoseStampedConstPtr>;
   /// Takes a message that was received. A command without a stamp has that of its receipt.
   using Receive = std::function<void(const Message&, const sweep_guard_core::Timestamps&)>;
   using Refuse = std::function<void(const std::string&)>;  ///< takes why a message cannot be read
@@ -75,12 +80,12 @@ class CommandPort {
   Eigen::Isometry3d point() const { return newestPose(frames_, parameters_.tool.frame, parameters_.command_point); }
   template <typename Msg>
   const Msg& newest() const {
-    return *static_cast<const Msg*>(newest_.get());
+    return *std::get<boost::shared_ptr<const Msg>>(newest_);
   }
   // Shared, so that no nodelet reads a copy.
   template <typename Msg>
   void publishNewest() {
-    publisher_.publish(boost::static_pointer_cast<const Msg>(newest_));
+    publisher_.publish(std::get<boost::shared_ptr<const Msg>>(newest_));
   }
   template <typename Msg>
   void publish(const boost::shared_ptr<Msg>& msg) {

@@ -76,25 +76,25 @@ void EarconNode::hear(const sweep_guard::Warning& message) {
 
 // A player that has ended is started again: a sound card may come back.
 void EarconNode::sound() {
-  sweep_guard_core::HeardWarning heard;
+  sweep_guard_core::MergedWarning merged;
   {
     const sweep_guard_core::Lock lock(mutex_);
-    heard = warning_.merged(now());
+    merged = warning_.merged(now());
   }
   std::string problem;
   try {
-    play(heard);
+    play(merged);
   } catch (const sweep_guard_core::DeviceError& error) {
     player_.reset();
     problem = error.what();
     log_.error("player", "no sound: " + problem);
   }
   const sweep_guard_core::Lock lock(mutex_);
-  sounds_ = heard.level;
+  sounds_ = merged.level;
   if (player_ || !problem.empty()) problem_ = problem;
 }
 
-void EarconNode::play(const sweep_guard_core::HeardWarning& warning) {
+void EarconNode::play(const sweep_guard_core::MergedWarning& warning) {
   const sweep_guard_core::SteadyTime at = std::chrono::steady_clock::now();
   if (!player_) {
     if (at < next_start_) return;

@@ -41,7 +41,7 @@ class EarconNode {
 
   void hear(const sweep_guard::Warning& message);
   void sound();
-  void play(const sweep_guard_core::HeardWarning& warning);
+  void play(const sweep_guard_core::MergedWarning& warning);
   void report(Status& status) const;
 
   // Members use only earlier members.
