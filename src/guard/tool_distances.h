@@ -22,23 +22,31 @@ double boxDistance(const Tool& body, const Eigen::Isometry3d& X_MB, const Triang
 class ToolDistances {
  public:
   struct Distance {
-    double now;    ///< at the newest pose that was measured at [m], >= 0
-    double least;  ///< since the workpiece came [m], >= 0
+    /// At the newest pose that was measured at [m], >= 0; empty: the frame of the workpiece was not known there.
+    std::optional<double> now;
+    /// Since the workpiece came, or came in another unit: more than three times as long or short as at the pose before [m], >= 0.
+    std::optional<double> least;
   };
 
-  /// Measures at a pose. Of a tool of many bodies among many workpieces not at each one: a thousand pairs are measured every 20 ms.
-  /// A workpiece whose frame is not known keeps its distances.
+  /// Measures at a pose. Of a tool of many bodies among many workpieces not at each one: a thousand pairs are measured every 20 ms,
+  /// and at none while get() copies: whoever sweeps does not wait.
   /// @param workpieces  ascending by id; not checked
   /// @param bodies      of the tool, as many as the pose has, none null
   void add(const PoseWithFrames& pose, const Workpieces& workpieces, SteadyTime now,
            const std::vector<const Tool*>& bodies);
 
-  std::map<std::string, Distance> get() const;  ///< by id, of those that were ever measured
+  std::map<std::string, Distance> get() const;  ///< by id, of the workpieces of the newest pose
 
  private:
+  struct Known {
+    Distance distance;
+    double length = 0.0;  // longest side of the box around the mesh [m]
+  };
+  static void measure(std::optional<double> distance, double length, Known& known);
+
   mutable Mutex mutex_;
-  std::optional<SteadyTime> measured_ GUARDED_BY(mutex_);         // newest
-  std::map<std::string, Distance> distances_ GUARDED_BY(mutex_);  // by id
+  std::optional<SteadyTime> measured_ GUARDED_BY(mutex_);  // newest
+  std::map<std::string, Known> known_ GUARDED_BY(mutex_);  // by id
 };
 
 }  // namespace sweep_guard_core

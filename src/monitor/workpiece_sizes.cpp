@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <limits>
 
@@ -18,7 +17,7 @@ using Distance = ToolDistances::Distance;
 struct Placed {
   const Workpiece* workpiece;
   Eigen::Vector3d size;  // [m]
-  Distance distance;     // infinite if it is not known
+  Distance distance;
 };
 
 std::string shortText(double value) {
@@ -30,8 +29,9 @@ std::string shortText(double value) {
 std::string sizeInWords(const Placed& placed) {
   const auto& [workpiece, size, distance] = placed;
   const std::string box = shortText(size.x()) + " x " + shortText(size.y()) + " x " + shortText(size.z()) + " m, ";
-  if (!std::isfinite(distance.least)) return box + "distance from the tool not known";
-  return box + shortText(distance.now) + " m from the tool, nearest so far " + shortText(distance.least) + " m";
+  const std::string text = box + (distance.now ? shortText(*distance.now) + " m from the tool"
+                                               : std::string("distance from the tool not known"));
+  return distance.least ? text + ", nearest so far " + shortText(*distance.least) + " m" : text;
 }
 
 std::string andMore(std::ptrdiff_t count) {
@@ -51,34 +51,32 @@ std::string tooLong(const std::vector<Placed>& all) {
 
 // Names the one that the tool came nearest to.
 std::string tooFar(const std::vector<Placed>& all) {
-  const auto is_far = [](const Placed& placed) {
-    return placed.distance.least > kEverNear && std::isfinite(placed.distance.least);
-  };
+  const auto is_far = [](const Placed& placed) { return placed.distance.least.value_or(0.0) > kEverNear; };
   const auto count = std::count_if(all.begin(), all.end(), is_far);
   if (count == 0) return {};
   const auto nearer = [&](const Placed& one, const Placed& other) {
     return is_far(one) != is_far(other) ? is_far(one) : one.distance.least < other.distance.least;
   };
   const Placed& nearest = *std::min_element(all.begin(), all.end(), nearer);
-  return "the tool was never nearer to '" + nearest.workpiece->id + "' than " + shortText(nearest.distance.least) +
+  return "the tool was never nearer to '" + nearest.workpiece->id + "' than " + shortText(*nearest.distance.least) +
          " m: is its pose, the mesh or a transform between them in millimeters?" + andMore(count);
 }
 
 }  // namespace
 
 WorkpieceSizes workpieceSizes(const Workpieces& workpieces, const std::map<std::string, Distance>& distances) {
-  constexpr double kUnknown = std::numeric_limits<double>::infinity();
   std::vector<Placed> all;
   for (const auto& workpiece : workpieces) {
     const auto distance = distances.find(workpiece->id);
     all.push_back({workpiece.get(), workpiece->mesh_M.bounds_M().sizes(),
-                   distance == distances.end() ? Distance{kUnknown, kUnknown} : distance->second});
+                   distance == distances.end() ? Distance{} : distance->second});
   }
   WorkpieceSizes sizes;
   const std::string length = tooLong(all);
   const std::string gap = tooFar(all);
   sizes.doubt = length + (length.empty() || gap.empty() ? "" : "; ") + gap;
-  const auto nearer = [](const Placed& one, const Placed& other) { return one.distance.now < other.distance.now; };
+  const auto at = [](const Placed& one) { return one.distance.now.value_or(std::numeric_limits<double>::infinity()); };
+  const auto nearer = [&](const Placed& one, const Placed& other) { return at(one) < at(other); };
   std::stable_sort(all.begin(), all.end(), nearer);
   if (all.size() > kMaxShown) all.resize(kMaxShown);
   for (const Placed& placed : all) sizes.nearest.emplace_back(placed.workpiece->id, sizeInWords(placed));

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "scenes.h"
 
 namespace sweep_guard_core {
@@ -10,13 +12,15 @@ namespace {
 using std::chrono::milliseconds;
 
 // 0.2 m wide and long, 0.1 m high, its middle at the origin.
-TriangleMesh flatBox() {
-  return TriangleMesh({{-0.1, -0.1, -0.05}, {0.1, -0.1, -0.05}, {0.1, 0.1, 0.05}, {-0.1, 0.1, 0.05}},
-                      {{0, 1, 2}, {0, 2, 3}});
+TriangleMesh flatBox(double scale = 1.0) {
+  std::vector<Eigen::Vector3d> corners = {{-0.1, -0.1, -0.05}, {0.1, -0.1, -0.05}, {0.1, 0.1, 0.05}, {-0.1, 0.1, 0.05}};
+  for (Eigen::Vector3d& corner : corners) corner *= scale;
+  return TriangleMesh(corners, {{0, 1, 2}, {0, 2, 3}});
 }
 
-std::shared_ptr<const Workpiece> slabNamed(const std::string& id, const std::string& frame = "table") {
-  return std::make_shared<const Workpiece>(Workpiece{id, 1, {}, {}, frame, flatBox()});
+std::shared_ptr<const Workpiece> slabNamed(const std::string& id, const std::string& frame = "table",
+                                           double scale = 1.0) {
+  return std::make_shared<const Workpiece>(Workpiece{id, 1, {}, {}, frame, flatBox(scale)});
 }
 
 class ToolDistancesTest : public testing::Test {
@@ -30,8 +34,9 @@ class ToolDistancesTest : public testing::Test {
     pose.X_WM["table"] = X_WM;
     distances_.add(pose, workpieces, SteadyTime(milliseconds(ms)), {&drill_});
   }
-  double now(const std::string& id = "slab") const { return distances_.get().at(id).now; }
-  double least(const std::string& id = "slab") const { return distances_.get().at(id).least; }
+  double now(const std::string& id = "slab") const { return distances_.get().at(id).now.value(); }
+  double least(const std::string& id = "slab") const { return distances_.get().at(id).least.value(); }
+  bool isKnown() const { return distances_.get().at("slab").now.has_value(); }
 
   const Tool drill_{ConvexShape::cylinder(0.01, 0.2)};
   const Workpieces workpieces_{slabNamed("slab")};
@@ -73,18 +78,47 @@ TEST_F(ToolDistancesTest, TheLeastIsKeptAsLongAsTheWorkpieceIsThere) {
   measure(40, {0.0, 0.0, 1.05}, {slabNamed("other"), slabNamed("slab"), slabNamed("unplaced", "nowhere")});
   EXPECT_NEAR(least(), 0.2, 1e-6);
   EXPECT_NEAR(least("other"), 1.0, 1e-6);
-  EXPECT_EQ(distances_.get().count("unplaced"), 0U);
+  EXPECT_FALSE(distances_.get().at("unplaced").least);
   measure(60, {0.0, 0.0, 1.05}, {slabNamed("other")});
   EXPECT_EQ(distances_.get().size(), 1U);
   measure(80, {0.0, 0.0, 1.05}, workpieces_);
   EXPECT_NEAR(least(), 1.0, 1e-6) << "it came again";
 }
 
-TEST_F(ToolDistancesTest, AreKeptWhileTheFrameIsNotKnown) {
-  measure(0, {0.0, 0.0, 0.25}, {slabNamed("slab")});
-  measure(20, {0.0, 0.0, 1.05}, {slabNamed("slab", "nowhere")});
-  EXPECT_NEAR(now(), 0.2, 1e-6);
-  EXPECT_NEAR(least(), 0.2, 1e-6);
+// Its mesh was in millimeters, inches or feet, and comes in meters; or the other way round.
+TEST_F(ToolDistancesTest, TheLeastBeginsAnewWithTheUnit) {
+  int ms = 0;
+  for (const double unit : {1000.0, 39.37, 3.281, 0.0254, 0.001}) {
+    measure(ms += 20, {0.0, 0.0, 0.0}, {slabNamed("slab", "table", unit)});
+    EXPECT_EQ(least(), 0.0) << unit;
+    measure(ms += 20, {0.0, 0.0, 1.05}, workpieces_);
+    EXPECT_NEAR(least(), 1.0, 1e-6) << unit;
+  }
+}
+
+TEST_F(ToolDistancesTest, TheLeastIsKeptWhileTheMeshDeforms) {
+  int ms = 0;
+  double scale = 1.0;
+  measure(ms, {0.0, 0.0, 0.25}, workpieces_);
+  for (const double factor : {2.9, 2.9, 0.4, 0.35, 1.0}) {
+    measure(ms += 20, {0.0, 0.0, 9.0}, {slabNamed("slab", "table", scale *= factor)});
+    EXPECT_NEAR(least(), 0.2, 1e-6) << factor;
+  }
+}
+
+TEST_F(ToolDistancesTest, ThereIsNoneWhileTheFrameIsNotKnown) {
+  measure(0, {0.0, 0.0, 0.25}, workpieces_);
+  int ms = 0;
+  for (const std::string frame : {"nowhere", "", "bench"}) {
+    measure(ms += 20, {0.0, 0.0, 1.05}, {slabNamed("slab", frame)});
+    EXPECT_FALSE(isKnown()) << frame;
+    EXPECT_NEAR(least(), 0.2, 1e-6) << "as before";
+    measure(ms += 20, {0.0, 0.0, 1.05}, workpieces_);
+    EXPECT_NEAR(now(), 1.0, 1e-6) << "it is known again";
+    EXPECT_NEAR(least(), 0.2, 1e-6);
+  }
+  measure(ms += 20, {0.0, 0.0, 1.05}, {slabNamed("slab", "nowhere", 1000.0)});
+  EXPECT_FALSE(distances_.get().at("slab").least) << "of the other unit nothing is known";
 }
 
 TEST_F(ToolDistancesTest, OfAThousandWorkpiecesAreMeasuredEveryTwentyMilliseconds) {

@@ -24,6 +24,17 @@ TEST(WorkpieceSizesTest, AreGivenWithTheDistanceOfTheTool) {
   EXPECT_EQ(sizes.doubt, "");
 }
 
+TEST(WorkpieceSizesTest, WhereAFrameIsLostNoOldDistanceIsGiven) {
+  const Workpieces workpieces = {wedge("bed", 1.0), wedge("lost", 0.1), wedge("new", 0.1), wedge("never", 0.1)};
+  const WorkpieceSizes sizes = workpieceSizes(workpieces, {{"bed", {0.4, 0.3}}, {"lost", {{}, 0.05}}, {"new", {}}});
+  ASSERT_EQ(sizes.nearest.size(), 4U);
+  EXPECT_EQ(sizes.nearest[0].first, "bed");
+  EXPECT_EQ(sizes.nearest[1].second, "0.1 x 0.2 x 0.05 m, distance from the tool not known, nearest so far 0.05 m");
+  for (const size_t i : {2, 3})
+    EXPECT_EQ(sizes.nearest[i].second, "0.1 x 0.2 x 0.05 m, distance from the tool not known");
+  EXPECT_EQ(sizes.doubt, "");
+}
+
 TEST(WorkpieceSizesTest, AMeshInMillimetersIsDoubted) {
   EXPECT_EQ(workpieceSizes({wedge("liver", 150.0)}, {}).doubt, "'liver' is 300 m long: is its mesh in millimeters?");
   EXPECT_EQ(workpieceSizes({wedge("a", 150.0), wedge("b", 4.9), wedge("c", 200.0)}, {}).doubt,

@@ -135,19 +135,24 @@ TEST_F(DiagnosticsTest, SayHowLargeWorkpiecesAreAndHowFarTheToolIs) {
   probe().awaitStatus("workpieces", doubts("the tool was never nearer to 'transform in mm' than 300 m"));
 }
 
+// In the frame of the tool poses, or of a workpiece.
+tf2_msgs::TFMessage transformOfLength(const std::string& child, double length) {
+  tf2_msgs::TFMessage message;
+  geometry_msgs::TransformStamped& transform = message.transforms.emplace_back();
+  transform.header.frame_id = "world";
+  transform.header.stamp = probe().time();
+  transform.child_frame_id = child;
+  transform.transform.rotation.w = length;
+  return message;
+}
+
 TEST_F(DiagnosticsTest, SayWhichTransformOfAWorkpieceIsRefused) {
   placeSquare("square", {0.0, 0.0, -1.0}, "bench");
   ConnectedPublisher<tf2_msgs::TFMessage> publisher("/tf");
   for (const auto& [length, value] : {std::pair{0.5, "0.5) is 0.5"}, {0.0, "0) is 0"}, {1.3, "1.3) is 1.3"}}) {
-    tf2_msgs::TFMessage message;
-    geometry_msgs::TransformStamped& bench = message.transforms.emplace_back();
-    bench.header.frame_id = "world";
-    bench.header.stamp = probe().time();
-    bench.child_frame_id = "bench";
-    bench.transform.rotation.w = length;
     probe().tick(0.01);
     probe().publish(poseAt(kAway, probe().time()));  // from then on, the frame counts
-    (*publisher).publish(message);
+    (*publisher).publish(transformOfLength("bench", length));
     probe().awaitWarning([&, refused = value](const Warning& warning) {
       return hasReason(Warning::TF_FAIL)(warning) && has(warning.text, "transform to 'bench' from node '") &&
              has(warning.text, refused);
@@ -156,6 +161,30 @@ TEST_F(DiagnosticsTest, SayWhichTransformOfAWorkpieceIsRefused) {
   probe().awaitStatus("workpieces", [](const DiagnosticStatus& status) {
     return status.level == DiagnosticStatus::ERROR && has(status.message, "(0, 0, 0, 1.3) is 1.3");
   });
+}
+
+// Also in the periods in which nothing more is refused.
+TEST_F(DiagnosticsTest, SayWhichTransformOfTheToolIsRefusedUntilAGoodOneComes) {
+  ConnectedPublisher<tf2_msgs::TFMessage> publisher("/tf");
+  probe().tick(0.01);
+  auto pose = poseAt(kAway, probe().time());
+  pose.header.frame_id = "cart";
+  probe().publish(pose);  // from then on, the frame counts
+  probe().awaitWarning(hasReason(Warning::TF_FAIL));
+  for (const auto& [length, value] : {std::pair{0.5, "0.5) is 0.5"}, {0.0, "0) is 0"}, {1.3, "1.3) is 1.3"}}) {
+    const auto is_told = [told = value](const DiagnosticStatus& status) {
+      return status.level == DiagnosticStatus::ERROR && has(status.message, "transform to 'cart' from node '") &&
+             has(status.message, told);
+    };
+    (*publisher).publish(transformOfLength("cart", length));
+    const std::string refused = valueOf(probe().awaitStatus("tool pose", is_told), "refused");
+    probe().awaitStatus("tool pose", [&](const DiagnosticStatus& status) {
+      return is_told(status) && valueOf(status, "refused") == refused;
+    });
+  }
+  (*publisher).publish(transformOfLength("cart", 1.0));
+  probe().awaitStatus("tool pose",
+                      [](const DiagnosticStatus& status) { return !has(status.message, "transform to 'cart'"); });
 }
 
 TEST_F(DiagnosticsTest, APoseThatWasRefusedIsTheLastErrorOfItsInputAlone) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_ros {
@@ -70,6 +72,37 @@ TEST_F(FrameBufferTest, WhatStandsOnItMovesWithIt) {
   EXPECT_NEAR(x("tool", 101.0), 3.2, 1e-12);
 }
 
+// The camera was sampled before its base began to move, meanwhile, and long after: none of these samples comes again.
+TEST_F(FrameBufferTest, WhatWasSampledOnItMovesWithIt) {
+  rest("base", "world", 1.0);
+  rest("mount", "base", 0.1);
+  move("camera", "mount", 99.0, 0.5);
+  move("lens", "camera", 99.0, 0.01);
+  move("camera", "mount", 105.0, 0.5);
+  move("lens", "camera", 105.0, 0.01);
+  for (const double stamp : {100.0, 101.0, 102.0}) move("base", "world", stamp, stamp - 98.0);
+  EXPECT_NEAR(x("camera", 99.5), 1.6, 1e-12) << "before";
+  for (const double stamp : {100.0, 100.5, 101.75}) {
+    EXPECT_NEAR(x("camera", stamp), stamp - 98.0 + 0.6, 1e-9) << stamp;
+    EXPECT_NEAR(x("lens", stamp), stamp - 98.0 + 0.61, 1e-9) << stamp;
+    EXPECT_NEAR(x("world", stamp, "lens"), -(stamp - 98.0 + 0.61), 1e-9) << stamp;
+  }
+  EXPECT_EQ(newest("lens"), ros::Time(102.0));
+}
+
+TEST_F(FrameBufferTest, TellsWhatItTakes) {
+  const auto take = [&](const std::string& parent, double stamp, bool is_static) {
+    return buffer_.set(transformAlongX("base", parent, stamp, 1.0), "/driver", is_static);
+  };
+  EXPECT_TRUE(take("world", 0.0, /*is_static=*/true));
+  EXPECT_TRUE(take("cart", 0.0, /*is_static=*/true));
+  EXPECT_TRUE(take("world", 100.0, /*is_static=*/false));
+  EXPECT_TRUE(take("world", 101.0, /*is_static=*/false));
+  for (const double stamp : {100.0, 101.0}) EXPECT_FALSE(take("cart", stamp, /*is_static=*/false)) << stamp;
+  EXPECT_FALSE(take("cart", 99.0, /*is_static=*/false)) << "it was at rest";
+  EXPECT_FALSE(take("cart", 0.0, /*is_static=*/true)) << "it moves";
+}
+
 TEST_F(FrameBufferTest, AStaticTransformOfAFrameThatMovesIsPassedOver) {
   rest("base", "world", 1.0);
   move("base", "world", 100.0, 2.0);
@@ -87,12 +120,17 @@ TEST_F(FrameBufferTest, AStaticTransformOfAFrameThatMovesIsPassedOver) {
 
 TEST_F(FrameBufferTest, ErrorsHaveTheNamesOfTheFrames) {
   rest("base", "world", 1.0);
+  rest("tool", "base", 0.1);
   move("base", "world", 100.0, 2.0);
-  try {
-    x("base", 200.0);
-    FAIL() << "is not known there";
-  } catch (const tf2::TransformException& error) {
-    EXPECT_NE(std::string(error.what()).find("[base]"), std::string::npos) << error.what();
+  for (const auto& [child, stamp] : {std::pair{"base", 200.0}, {"tool", 50.0}, {"camera", 100.0}}) {
+    try {
+      x(child, stamp);
+      FAIL() << child << " is not known there";
+    } catch (const tf2::TransformException& error) {
+      const std::string text = error.what();
+      EXPECT_NE(text.find(child), std::string::npos) << text;
+      EXPECT_EQ(text.find('\1'), std::string::npos) << text;
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <set>
 #include <string>
 #include <thread>
 
@@ -116,6 +117,39 @@ TEST_F(StaticFramesTest, AnyOtherChangeIsMadeAtOnceAndIsNotTold) {
   EXPECT_TRUE(areTold(0));
 }
 
+TEST_F(StaticFramesTest, AChangeThatIsHeldBackReplacesNoLaterOne) {
+  for (const std::string table : {"table", "tray", "shelf"}) {
+    publishStatic(table, 1.0);
+    ASSERT_TRUE(arrives(table, 1.0));
+    frames_.use("workpieces", "world", {table});
+    const std::uint64_t told = frames_.staticChanges();
+    publishStatic(table, 2.0);
+    ASSERT_TRUE(areTold(told + 1));
+    frames_.use("workpieces", "world", {});
+    publishStatic(table, 3.0);
+    EXPECT_TRUE(arrives(table, 3.0));
+    frames_.applyStaticChanges();
+    EXPECT_EQ(frames_.lookup("world", table, {}).translation().x(), 3.0);
+  }
+}
+
+// The listener takes what moves, and another thread what is held back.
+TEST_F(StaticFramesTest, AFrameThatBeginsToMoveWhileAChangeIsAppliedMoves) {
+  std::set<std::string> carts;
+  for (int i = 0; i < 50; ++i) carts.insert("cart" + std::to_string(i));
+  for (const std::string& cart : carts) publishStatic(cart, 1.0);
+  for (const std::string& cart : carts) ASSERT_TRUE(arrives(cart, 1.0));
+  frames_.use("workpieces", "world", carts);
+  std::uint64_t changes = 0;
+  for (const std::string& cart : carts) {
+    publishStatic(cart, 2.0);
+    ASSERT_TRUE(areTold(++changes));
+    publish(cart, ros::Time::now(), 3.0);
+    frames_.applyStaticChanges();
+  }
+  for (const std::string& cart : carts) EXPECT_TRUE(arrives(cart, 3.0)) << cart;
+}
+
 TEST_F(FramesTest, TellsOfTransformsThatCountAndMove) {
   std::atomic<int> told = 0;
   const auto handle = frames_.onMove([&] { ++told; });
@@ -219,6 +253,25 @@ TEST_F(RefusedTransformsTest, OfAStaticFrameAreToldAsLong) {
   publishStatic("tool", 2.0);
   ASSERT_TRUE(arrives("tool", 2.0));
   EXPECT_EQ(frames_.refusal(), "");
+}
+
+// The tool does not stand on these frames: the transforms that say so are passed over.
+TEST_F(RefusedTransformsTest, OfAFrameThatWasOnlyToBeStoodOnAreNotTold) {
+  publishStatic("tool", 1.0);
+  ASSERT_TRUE(arrives("tool", 1.0));
+  auto passed_over = transformTo("tool", ros::Time::now(), 1.0);
+  passed_over.header.frame_id = "wall";
+  send(passed_over, static_publisher_);
+  ASSERT_TRUE(areTold(1));
+  publish("tool", passed_over.header.stamp, 2.0);
+  ASSERT_TRUE(arrives("tool", 2.0));
+  EXPECT_TRUE(frames_.applyStaticChanges()) << "too late: it moves";
+  for (const std::string parent : {"wall", "cart", "rail"}) {
+    passed_over.header.frame_id = parent;
+    if (parent != "wall") send(passed_over, publisher_);  // its stamp is there already
+    turn(parent, {0.0, 0.0, 0.0, 0.5});
+    EXPECT_EQ(frames_.refusal(), "") << parent;
+  }
 }
 
 TEST_F(RefusedTransformsTest, OfAFrameThatNobodyUsesAreNotTold) {

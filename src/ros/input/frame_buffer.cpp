@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/number_text.h"
+#include "ros/threads/gate.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_ros {
@@ -12,14 +13,13 @@ namespace {
 
 using geometry_msgs::TransformStamped;
 
-constexpr char kMoved = '\1';  // after a name in tf2; no name has it
+constexpr char kMover = '\1';  // ends the name of what moves in tf2 in place of a frame that was static; no name has it
 const ros::Duration kHistory(tf2::BufferCore::DEFAULT_CACHE_TIME);
 const ros::Duration kInstant(0, 1);
-const ros::Duration kRestPeriod(1.0);  // of the samples that say where a frame was before it moved
 
-std::string withoutMarks(std::string text) {
-  text.erase(std::remove(text.begin(), text.end(), kMoved), text.end());
-  return text;
+TransformStamped toMover(TransformStamped transform) {
+  transform.child_frame_id += kMover;
+  return transform;
 }
 
 ros::Time earlierBy(ros::Time stamp, ros::Duration by) {
@@ -35,19 +35,29 @@ sweep_guard_core::InvalidInput tooOld(ros::Duration age) {
 
 }  // namespace
 
-void FrameBuffer::set(const TransformStamped& transform, const std::string& publisher, bool is_static) {
+bool FrameBuffer::set(const TransformStamped& transform, const std::string& publisher, bool is_static) {
+  return is_static ? setStatic(transform, publisher) : setMoving(transform, publisher);
+}
+
+bool FrameBuffer::setStatic(const TransformStamped& transform, const std::string& publisher) {
+  if (moves(transform.child_frame_id)) return false;
+  static_[transform.child_frame_id] = transform;
+  return buffer_.setTransform(transform, publisher, /*is_static=*/true);
+}
+
+bool FrameBuffer::setMoving(const TransformStamped& transform, const std::string& publisher) {
   const std::string& child = transform.child_frame_id;
-  if (is_static) {
-    if (setStatic(transform)) buffer_.setTransform(named(transform), publisher, /*is_static=*/true);
-    return;
-  }
-  if (isStatic(child)) beginToMove(child, transform.header.stamp, publisher);
-  if (isNew(child, transform.header.stamp)) buffer_.setTransform(named(transform), publisher, /*is_static=*/false);
+  const bool begins = !moves(child);
+  if (!isNew(child, transform.header.stamp)) return false;
+  const auto rest = static_.find(child);
+  if (rest == static_.end()) return buffer_.setTransform(transform, publisher, /*is_static=*/false);
+  buffer_.setTransform(toMover(transform), publisher, /*is_static=*/false);
+  if (begins) beginToMove(rest->second, transform.header.stamp, publisher);
+  return true;
 }
 
 // As tf2's cache of a frame finds it.
 bool FrameBuffer::isNew(const std::string& child, ros::Time stamp) {
-  const sweep_guard_core::Lock lock(mutex_);
   std::deque<ros::Time>& stamps = stamps_[child];
   if (!stamps.empty() && stamp + kHistory < stamps.back()) throw tooOld(stamps.back() - stamp);
   const auto place = std::lower_bound(stamps.begin(), stamps.end(), stamp);
@@ -57,83 +67,28 @@ bool FrameBuffer::isNew(const std::string& child, ros::Time stamp) {
   return true;
 }
 
-// It has its new name when all is there that it is looked up by, and what stands on it follows.
-void FrameBuffer::beginToMove(const std::string& child, ros::Time first, const std::string& publisher) {
-  TransformStamped rest;
-  {
-    const sweep_guard_core::Lock lock(mutex_);
-    rest = static_.at(child);
+// In tf2, a static frame stays static, but may come to stand on another: on what moves in its place, with nothing between both.
+// Then all that stands on the frame moves with it, also what was sampled on it before.
+void FrameBuffer::beginToMove(const TransformStamped& rest, ros::Time first, const std::string& publisher) {
+  TransformStamped sample = toMover(rest);
+  for (std::int32_t seconds = kHistory.sec; seconds >= 0; --seconds) {
+    sample.header.stamp = earlierBy(first, std::max(ros::Duration(seconds, 0), kInstant));
+    if (sample.header.stamp < first && isNew(rest.child_frame_id, sample.header.stamp))
+      buffer_.setTransform(sample, publisher, /*is_static=*/false);
   }
-  rest = named(std::move(rest));
-  rest.child_frame_id += kMoved;
-  const auto add = [&](ros::Duration earlier) {
-    rest.header.stamp = earlierBy(first, earlier);
-    if (rest.header.stamp < first && isNew(child, rest.header.stamp))
-      buffer_.setTransform(rest, publisher, /*is_static=*/false);
-  };
-  for (ros::Duration earlier = kHistory; earlier > kInstant; earlier -= kRestPeriod) add(earlier);
-  add(kInstant);
-  rename(child);
-  for (const TransformStamped& other : standingOn(child))
-    buffer_.setTransform(named(other), publisher, /*is_static=*/true);
-}
-
-void FrameBuffer::rename(const std::string& child) {
-  const sweep_guard_core::Lock lock(mutex_);
-  static_.erase(child);
-  renamed_.insert(child);
-}
-
-bool FrameBuffer::moves(const std::string& child) const {
-  const sweep_guard_core::Lock lock(mutex_);
-  return stamps_.count(child) != 0;
-}
-
-bool FrameBuffer::isStatic(const std::string& child) const {
-  const sweep_guard_core::Lock lock(mutex_);
-  return static_.count(child) != 0;
-}
-
-std::vector<TransformStamped> FrameBuffer::standingOn(const std::string& parent) const {
-  const sweep_guard_core::Lock lock(mutex_);
-  std::vector<TransformStamped> transforms;
-  for (const auto& [child, transform] : static_) {
-    if (transform.header.frame_id == parent) transforms.push_back(transform);
-  }
-  return transforms;
-}
-
-// Returns whether it is taken.
-bool FrameBuffer::setStatic(const TransformStamped& transform) {
-  const sweep_guard_core::Lock lock(mutex_);
-  const std::string& child = transform.child_frame_id;
-  if (stamps_.count(child) != 0) return false;
-  static_[child] = transform;
-  return true;
-}
-
-std::string FrameBuffer::nameOf(const std::string& frame) const {
-  const sweep_guard_core::Lock lock(mutex_);
-  return renamed_.count(frame) == 0 ? frame : frame + kMoved;
-}
-
-TransformStamped FrameBuffer::named(TransformStamped transform) const {
-  transform.header.frame_id = nameOf(transform.header.frame_id);
-  transform.child_frame_id = nameOf(transform.child_frame_id);
-  return transform;
+  TransformStamped stand;
+  stand.header.frame_id = sample.child_frame_id;
+  stand.child_frame_id = rest.child_frame_id;
+  stand.transform.rotation.w = 1.0;
+  buffer_.setTransform(stand, publisher, /*is_static=*/true);
 }
 
 TransformStamped FrameBuffer::lookup(const std::string& target, const std::string& source, ros::Time stamp) const {
-  try {
-    return buffer_.lookupTransform(nameOf(target), nameOf(source), stamp);
-  } catch (const tf2::TransformException& error) {
-    throw tf2::TransformException(withoutMarks(error.what()));
-  }
+  return buffer_.lookupTransform(target, source, stamp);
 }
 
 void FrameBuffer::clear() {
   buffer_.clear();
-  const sweep_guard_core::Lock lock(mutex_);
   for (auto& [child, stamps] : stamps_) stamps.clear();
 }
 

@@ -78,19 +78,23 @@ void Frames::accept(const geometry_msgs::TransformStamped& transform, const std:
   const std::string& child = transform.child_frame_id;
   if (!is_static) checkStamp(transform.header.stamp);
   countFrames(transform);
-  if (is_static && buffer_.moves(child)) {
-    log_.error("moves", "frame '" + child + "' comes on /tf and on /tf_static: it counts as one that moves");
-    return;
-  }
   const std::string publisher = printable(node);
-  if (!is_static || !isHeldBack(transform, publisher)) {
-    buffer_.set(transform, publisher, is_static);
-    tree_.add(transform.header.frame_id, child);
+  {
+    const sweep_guard_core::Lock lock(order_mutex_);
+    if (is_static && buffer_.moves(child)) {
+      log_.error("moves", "frame '" + child + "' comes on /tf and on /tf_static: it counts as one that moves");
+      return;
+    }
+    if (!is_static || !isHeldBack(transform, publisher)) set(transform, publisher, is_static);
   }
   refused_.accepted(child);
   if (is_static || !tree_.isUsed(child)) return;
   notePublisher(transform, node);
   callBack(on_move_);
+}
+
+void Frames::set(const geometry_msgs::TransformStamped& transform, const std::string& publisher, bool is_static) {
+  if (buffer_.set(transform, publisher, is_static)) tree_.add(transform.header.frame_id, transform.child_frame_id);
 }
 
 void Frames::refuse(const geometry_msgs::TransformStamped& transform, const std::string& node, const std::string& why) {
@@ -113,7 +117,9 @@ std::string Frames::refusalFor(const std::string& user) const {
 
 void Frames::checkClock() {
   const sweep_guard_core::Lock lock(clock_mutex_);
-  if (clock_.hasGoneBack(now())) buffer_.clear();
+  if (!clock_.hasGoneBack(now())) return;
+  const sweep_guard_core::Lock order_lock(order_mutex_);
+  buffer_.clear();
 }
 
 void Frames::checkStamp(const ros::Time& stamp) {
@@ -147,7 +153,10 @@ bool Frames::isHeldBack(const geometry_msgs::TransformStamped& transform, const 
   {
     const sweep_guard_core::Lock lock(changes_mutex_);
     if (same) return held_back_.count(child) != 0;
-    if (!tree_.isUsed(child)) return false;
+    if (!tree_.isUsed(child)) {
+      held_back_.erase(child);  // one that counted then would replace it later
+      return false;
+    }
     if (held_back_.empty()) held_back_since_ = std::chrono::steady_clock::now();
     held_back_[child] = {transform, publisher};
     ++static_changes_;
@@ -167,15 +176,13 @@ bool Frames::holdsBack(sweep_guard_core::Duration longer_than) const {
 }
 
 bool Frames::applyStaticChanges() {
+  const sweep_guard_core::Lock order_lock(order_mutex_);
   std::map<std::string, StaticChange> changes;
   {
     const sweep_guard_core::Lock lock(changes_mutex_);
     std::swap(changes, held_back_);
   }
-  for (const auto& [child, change] : changes) {
-    buffer_.set(change.transform, change.publisher, /*is_static=*/true);
-    tree_.add(change.transform.header.frame_id, child);
-  }
+  for (const auto& [child, change] : changes) set(change.transform, change.publisher, /*is_static=*/true);
   return !changes.empty();
 }
 

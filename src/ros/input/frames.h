@@ -111,6 +111,8 @@ class Frames {
  private:
   void onTransforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& event, bool is_static);
   void accept(const geometry_msgs::TransformStamped& transform, const std::string& node, bool is_static);
+  void set(const geometry_msgs::TransformStamped& transform, const std::string& publisher, bool is_static)
+      REQUIRES(order_mutex_);
   void refuse(const geometry_msgs::TransformStamped& transform, const std::string& node, const std::string& why);
   void checkStamp(const ros::Time& stamp);
   FrameError noTransform(const std::string& target, const std::string& source, const std::string& why) const;
@@ -127,6 +129,9 @@ class Frames {
     std::string publisher;
   };
   std::map<std::string, geometry_msgs::TransformStamped> static_transforms_;  // by child; used by the listener only
+  // From the decision about a transform until it is set: the listener does not overtake who applies static changes. Held while
+  // on_static_change_ and onChange() are called: they may look up.
+  sweep_guard_core::Mutex order_mutex_;
   FrameTree tree_;
   RefusedTransforms refused_;
   sweep_guard_core::Mutex callbacks_mutex_;  // of the next ones

@@ -48,6 +48,7 @@ PoseInput::PoseInput(const ros::NodeHandle& node, const LiveParameters& live, co
       monitor_(dependencies.monitor),
       queue_(dependencies.queue),
       jumps_(tool_frame_, fixed_frame_, jointsOf(live.initial())),
+      resting_(live, frames_),
       moving_frames_(fixed_frame_, {frames_, dependencies.frame_motions, monitor_, queue_, record_}),
       late_(live, frames_),
       path_(fixed_frame_, frames_, dependencies.workpieces, moving_frames_) {
@@ -213,21 +214,17 @@ void PoseInput::addPoseOfFrame(sweep_guard_core::Time stamp, bool rests) {
   });
 }
 
-// Half of the timeout, if that is shorter: a pose that waits for the processor is not stale yet.
+// A lookup may wait for the listener: not in the thread that calls.
 void PoseInput::addRestingPose() {
-  if (live_.initial().tool_source != ToolSource::kTf) return;
-  const auto parameters = live_.get();
-  const sweep_guard_core::Instant at = now();
-  const auto period = std::min(parameters->guard.cycle, parameters->limits.pose_timeout / 2);
-  const bool waits =
-      at.steady - rested_.steady < period && rested_.stamp <= at.stamp && at.stamp - rested_.stamp < period;
-  if (waits || at.stamp == sweep_guard_core::Time()) return;
-  if (frames_.newest(fixed_frame_, tool_frame_) != sweep_guard_core::Time()) return;
-  rested_ = at;
-  if (fixed_frame_ == tool_frame_)
-    return refuse(sweep_guard_core::kPoseInvalid, "tool_frame is fixed_frame, in which it never moves");
-  if (frames_.find(fixed_frame_, tool_frame_, at.stamp)) return addPoseOfFrame(at.stamp, /*rests=*/true);
-  refuse(sweep_guard_core::kPoseInvalid, "the transforms to '" + tool_frame_ + "' have the stamp 0: stamp each");
+  if (live_.initial().tool_source != ToolSource::kTf || !resting_.isDue(now())) return;
+  thread_.post([this] {
+    try {
+      const sweep_guard_core::Time stamp = now().stamp;
+      if (resting_.rests(stamp)) addPoseOfFrame(stamp, /*rests=*/true);
+    } catch (...) {
+      refuseCaught();
+    }
+  });
 }
 
 // Refuses an input for the exception that is being handled.

@@ -20,6 +20,7 @@
 #include "ros/input/frames.h"
 #include "ros/input/late_poses.h"
 #include "ros/input/moving_frames.h"
+#include "ros/input/resting_pose.h"
 #include "ros/input/tool_path.h"
 #include "ros/parameters/parameters.h"
 #include "ros/process/log_throttle.h"
@@ -99,7 +100,7 @@ class PoseInput {
   sweep_guard_core::ToolJumps jumps_;                     // in the states that come in
   sweep_guard_core::RepeatedPositions repeated_;          // of these states
   std::optional<sweep_guard_core::Time> last_transform_;  // used by the tf listener's thread only
-  sweep_guard_core::Instant rested_{};   // when addRestingPose() last added one; used by its thread only
+  RestingPose resting_;
   sweep_guard_core::Time rested_until_;  // stamp of the newest pose of a tool from tf at rest
   sweep_guard_core::SequenceGaps gaps_;  // in header.seq
   std::atomic<std::uint64_t> lost_ = 0;

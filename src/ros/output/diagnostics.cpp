@@ -46,6 +46,13 @@ void reportClocks(const sweep_guard_core::Timestamps& pose, diagnostic_updater::
   status.mergeSummaryf(DiagnosticStatus::ERROR, "poses are %.0f s old: clocks differ", by_stamp);
 }
 
+// Of a transform that counts for this user, until a good one comes. No text is in every message.
+void reportRefusal(const Frames& frames, const std::string& user, diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const std::string refusal = frames.refusalFor(user);
+  const bool is_told = status.message.find(refusal) != std::string::npos;
+  if (!is_told) status.mergeSummary(DiagnosticStatus::ERROR, refusal);
+}
+
 }  // namespace
 
 Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, GuardState& state,
@@ -94,6 +101,7 @@ void Diagnostics::pose(Status& status) {
       status,
       {inputs_.poses().source(), inputs_.poses().publishers(), inputs_.poses().record().summary(), /*continuous=*/true},
       poses_);
+  reportRefusal(state_.frames, "tool", status);
   if (inputs_.poses().publishers().value_or(1) > 1) {
     status.mergeSummary(DiagnosticStatus::WARN, "several publishers: the tool jumps between their poses");
   }
@@ -199,8 +207,7 @@ void Diagnostics::workpieces(Status& status) const {
   const sweep_guard_core::WorkpieceSizes sizes = sweep_guard_core::workpieceSizes(workpieces, state_.distances.get());
   if (!sizes.doubt.empty()) status.mergeSummary(DiagnosticStatus::WARN, sizes.doubt);
   for (const auto& [id, size] : sizes.nearest) status.add("size of '" + id + "'", size);
-  const std::string refusal = state_.frames.refusalFor("workpieces");
-  if (!refusal.empty()) status.mergeSummary(DiagnosticStatus::ERROR, refusal);
+  reportRefusal(state_.frames, "workpieces", status);
 }
 
 void Diagnostics::allowed(Status& status) const {
