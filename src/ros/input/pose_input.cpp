@@ -82,11 +82,7 @@ void PoseInput::onMessage(const ros::MessageEvent<const geometry_msgs::PoseStamp
   countLost(event.getPublisherName(), msg.header.seq);
   const sweep_guard_core::Timestamps timestamps{fromMsg(msg.header.stamp), std::chrono::steady_clock::now()};
   if (!articulated_) record_.received(timestamps);
-  try {
-    accept({timestamps, msg.header.frame_id, fromMsg(msg.pose), monitor_.checkpoint(), frames_.staticChanges()});
-  } catch (...) {
-    refuseCaught();
-  }
+  accept({timestamps, msg.header.frame_id, fromMsg(msg.pose), monitor_.checkpoint(), frames_.staticChanges()});
 }
 
 void PoseInput::onJoints(const ros::MessageEvent<const sensor_msgs::JointState>& event) {
@@ -114,11 +110,7 @@ void PoseInput::acceptJoints(const sensor_msgs::JointState& joints, const std::s
     return refuseCaught("joint_states of " + sweep_guard_core::printable(sender) + ": ");
   }
   path_.note(timestamps.stamp, static_changes);
-  try {
-    pushKnownPoses(timestamps.received, checkpoint_);
-  } catch (...) {
-    refuseCaught();
-  }
+  pushKnownPoses(timestamps.received, checkpoint_);
   reportSilence(timestamps.stamp);
 }
 
@@ -130,13 +122,15 @@ void PoseInput::reportSilence(sweep_guard_core::Time stamp) {
 }
 
 // Also of tool poses that came: the newest joint decides up to when all are known.
-void PoseInput::pushKnownPoses(sweep_guard_core::SteadyTime received, const Checkpoint& checkpoint) {
+void PoseInput::pushKnownPoses(sweep_guard_core::SteadyTime received, const Checkpoint& checkpoint) try {
   const auto root = [this](sweep_guard_core::Time stamp) { return late_.locateToolFrame(stamp); };
   while (articulated_->next(root, known_)) {
     if (articulated_->leavesOut()) monitor_.fault(sweep_guard_core::kPosesUnswept, kPassed);
     record_.received({known_.back().stamp, received});
     push(received, checkpoint);
   }
+} catch (...) {
+  refuseCaught();
 }
 
 // The state is the last of the poses that the motion to it was cut into.
@@ -205,11 +199,7 @@ void PoseInput::addPoseOfFrame(sweep_guard_core::Time stamp, bool rests) {
       pose.checkpoint = monitor_.checkpoint();
       pose.static_changes = frames_.staticChanges();
     }
-    try {
-      accept(pose, rests);
-    } catch (...) {
-      refuseCaught();
-    }
+    accept(pose, rests);
     if (rests) rested_until_ = pose.timestamps.stamp;
   });
 }
@@ -260,7 +250,7 @@ void PoseInput::begin(const Checkpoint& checkpoint) {
 }
 
 // Where a tool from tf ceases to rest, its first transforms may be older than its newest pose at rest, and the other way round.
-void PoseInput::accept(ReceivedPose pose, bool rests) {
+void PoseInput::accept(ReceivedPose pose, bool rests) try {
   begin(pose.checkpoint);
   const auto previous = late_.newest();
   const sweep_guard_core::Time rested_until = rests ? previous.value_or(rested_until_) : rested_until_;
@@ -275,6 +265,8 @@ void PoseInput::accept(ReceivedPose pose, bool rests) {
   if (!late_.leaveOutIfFull()) return;
   monitor_.fault(sweep_guard_core::kPosesUnswept, "tool poses were left out: too many wait for the transform of '" +
                                                       sweep_guard_core::printable(pose.frame) + "'");
+} catch (...) {
+  refuseCaught();
 }
 
 // A pose that is refused does not hold up those after it.
@@ -310,12 +302,7 @@ void PoseInput::onFramesMoved() {
 
 void PoseInput::pushAllWaiting() {
   pushWaiting();
-  if (!articulated_ || !late_.jointsWait()) return;
-  try {
-    pushKnownPoses(std::chrono::steady_clock::now(), checkpoint_);
-  } catch (...) {
-    refuseCaught();
-  }
+  if (articulated_ && late_.jointsWait()) pushKnownPoses(std::chrono::steady_clock::now(), checkpoint_);
 }
 
 void PoseInput::push(sweep_guard_core::SteadyTime received, const Checkpoint& checkpoint) {
