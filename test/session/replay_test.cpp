@@ -308,14 +308,20 @@ TEST_F(ReplayTest, PlaysThePartsOfASessionFromALaterTimeOn) {
   EXPECT_TRUE(has(printed, "black_box_2.bag, which is played with timing/mesh_timeout .inf instead of 0.5")) << printed;
 }
 
-// The guard holds a contact by the clock of the machine: at four times the speed it would join the two.
+// The guard holds a contact by the clock of the machine: at four times the speed it would join the two. So few poses that
+// a machine under load keeps up.
 TEST_F(ReplayTest, ContactsLastAsLongAtFourTimesTheSpeed) {
-  writeBag({writeMesh, writePoses, writeVertices});
+  const auto write_poses = [](rosbag::Bag& bag) {
+    for (double t = 0.0; t < kDuration; t += 0.01) bag.write("/tool_pose", poseAt(t).header.stamp, poseAt(t));
+  };
+  writeBag({writeMesh, write_poses, writeVertices});
   const std::string printed = replay("rate:=4");
   const auto contacts = readCsv(folder_ / "report/contacts.csv");
   ASSERT_EQ(contacts.size(), 3U) << printed;
   for (std::size_t i = 1; i < contacts.size(); ++i) {
-    EXPECT_NEAR(std::stod(contacts[i][1]), kFirstTouch + kPeriod * static_cast<double>(i - 1), 0.005) << printed;
+    EXPECT_NEAR(std::stod(contacts[i][1]), kFirstTouch + kPeriod * static_cast<double>(i - 1),
+                0.005 + sweptAtOnce(printed))
+        << printed;
     EXPECT_NEAR(duration(contacts[i]), kContact, 0.01 * kDuration + sweptAtOnce(printed)) << printed;
   }
 }
