@@ -20,6 +20,7 @@ class SweptIntervals {
     if (size_++ > 0 && start > *last()) gaps_ += start - *last();
     const auto interval = start_of_.try_emplace(stamp, start).first;
     interval->second = std::min(interval->second, start);
+    longest_ = std::max(longest_, stamp - interval->second);
   }
 
   std::size_t size() const { return size_; }
@@ -28,7 +29,8 @@ class SweptIntervals {
     const auto interval = start_of_.lower_bound(stamp);
     return interval != start_of_.end() && (interval->first == stamp || interval->second < stamp);
   }
-  sweep_guard_core::Duration gaps() const { return gaps_; }  ///< total time between the intervals
+  sweep_guard_core::Duration gaps() const { return gaps_; }        ///< total time between the intervals
+  sweep_guard_core::Duration longest() const { return longest_; }  ///< of all intervals
   /// Returns the stamp of the first pose swept; empty: none.
   std::optional<sweep_guard_core::Time> first() const {
     return start_of_.empty() ? std::nullopt : std::optional(start_of_.begin()->first);
@@ -42,6 +44,7 @@ class SweptIntervals {
   std::map<sweep_guard_core::Time, sweep_guard_core::Time> start_of_;  // by the stamp at the end
   std::size_t size_ = 0;
   sweep_guard_core::Duration gaps_{0};
+  sweep_guard_core::Duration longest_{0};
 };
 
 }  // namespace sweep_guard_recording

@@ -18,6 +18,7 @@
 #include <functional>
 #include <iostream>
 #include <limits>
+#include <set>
 #include <sstream>
 #include <string>
 #include <type_traits>
@@ -26,7 +27,9 @@
 
 #include "recording/object_contacts.h"
 #include "recording/run_node.h"
+#include "session/held_warnings.h"
 #include "session/session_bag.h"
+#include "session/session_config.h"
 #include "session/session_files.h"
 #include "session/session_log.h"
 #include "session/session_report.h"
@@ -42,7 +45,10 @@
 namespace sweep_guard_session {
 namespace {
 
+using sweep_guard_core::Duration;
 using sweep_guard_core::InvalidInput;
+using sweep_guard_core::Time;
+using sweep_guard_core::toSeconds;
 using sweep_guard_ros::fromMsg;
 
 constexpr std::uint32_t kQueue = 100000;
@@ -51,9 +57,10 @@ constexpr std::uint32_t kSoundRate = 8000;  // samples per second
 constexpr double kAnswerTimeout = 2.0;      // [s] of wall time, for answers
 constexpr double kMaxStart = 1e9;           // [s]
 constexpr const char* kHoldTime = "warning/hold_time";
-constexpr double kMaxHoldTime = 60.0;  // [s] that the guard accepts
+constexpr double kDefaultHoldTime = 0.5;  // [s]
+constexpr double kMaxHoldTime = 60.0;     // [s] that the guard accepts
 
-sweep_guard_core::Time now() { return fromMsg(ros::Time::now()); }
+Time now() { return fromMsg(ros::Time::now()); }
 
 void handleMessages() { ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01)); }
 
@@ -66,9 +73,14 @@ bool waitUntil(const std::function<bool()>& condition, double timeout) {
   return false;
 }
 
+// The guard ends with a value that is out of range.
+Duration readHoldTime(const ros::NodeHandle& guard) {
+  const double seconds = guard.param(kHoldTime, kDefaultHoldTime);
+  return sweep_guard_core::fromSeconds(seconds >= 0.0 && seconds <= kMaxHoldTime ? seconds : kDefaultHoldTime);
+}
+
 SweepContact toSweepContact(const sweep_guard::Contacts& contacts, const sweep_guard::ObjectContacts& object) {
   SweepContact contact;
-  contact.received = now();
   contact.first = fromMsg(contacts.interval_start);
   contact.stamp = fromMsg(contacts.header.stamp);
   contact.mesh_id = object.mesh_id;
@@ -115,10 +127,12 @@ bool drawPictures(std::string folder, std::string name) {
 class ReplayReport {
  public:
   explicit ReplayReport(sweep_guard_ros::ParameterReader& parameters)
-      : files_(bagFiles(parameters.text("bag", ""), parameters.text("folder", "/"))),
+      : paths_(bagFiles(parameters.text("bag", ""), parameters.text("folder", "/"))),
+        files_(paths_),
         output_(parameters.name("output", files_.name() + ".report")),
         rate_(parameters.number("rate", 1.0, {1e-3, 1e3})),  // of the player, which reports no range
-        guard_(parameters.name("guard", "sweep_guard")) {
+        guard_(parameters.name("guard", "sweep_guard")),
+        hold_time_(readHoldTime(guard_)) {
     topics_ = readTopics(parameters);
     const std::chrono::duration<double> start(parameters.number("start", 0.0, {0.0, kMaxStart}));
     bag_ = inspectSession(files_, topics_, std::chrono::duration_cast<sweep_guard_core::Duration>(start));
@@ -129,6 +143,8 @@ class ReplayReport {
           "timing/mesh_timeout: .inf in your config if the workpiece is rigid");
     }
     for (const std::string& missing : bag_.missing) ROS_WARN("%s", missing.c_str());
+    bag_.config = describeConfig(parameters.text("config", ""), paths_);
+    for (std::size_t i = 1; i < bag_.config.size(); ++i) ROS_WARN("%s", bag_.config[i].c_str());
     listenTo(parameters.text("topics", ""));
     makeFolder();
   }
@@ -138,7 +154,7 @@ class ReplayReport {
     await([this] { return clock_.getNumPublishers() == 0 || contacts_.getNumPublishers() == 0; });
     if (contacts_.getNumPublishers() == 0) throw InvalidInput("the guard ended during the session; see its log");
     waitUntil([this] { return sweptToTheEnd(); }, kAnswerTimeout);
-    log_.end(now());
+    logWarnings();
     playing_ = false;
     waitUntil([this] { return fromMsg(touches_.touches().header.stamp) >= last_touch_; }, kAnswerTimeout);
     if (ros::ok()) report();
@@ -213,39 +229,54 @@ class ReplayReport {
     pause.request.data = 0;
     playing_ = true;
     if (!ros::service::call(service, pause) && ros::ok()) throw InvalidInput("the player does not answer " + service);
-    ROS_INFO("playing %s: %.1f s", files_.name().c_str(), sweep_guard_core::toSeconds(bag_.end - bag_.start));
+    ROS_INFO("playing %s: %.1f s", files_.name().c_str(), toSeconds(bag_.end - bag_.start));
   }
 
-  // The player knows nothing of what was recorded before its start. Vertices and intentions need their mesh.
+  // The player knows nothing of what was recorded before its start, or the last message of a publisher at the most. Vertices and
+  // intentions need their mesh.
   void publishStart() {
-    const SessionStart start = readStart(files_, topics_, bag_.start);
-    publish(kStaticTransformsTopic, start.transforms);
-    publish(topics_.mesh, start.meshes);
-    if (!start.meshes.empty()) waitUntil([this] { return knows_mesh_; }, kAnswerTimeout);
-    publish(topics_.mesh_vertices, start.vertices);
-    publish(kIntendTopic, start.intends);
+    start_ = readStart(files_, topics_, bag_.start);
+    publish(kStaticTransformsTopic, &SessionStart::transforms);
+    publish(topics_.mesh, &SessionStart::meshes);
+    if (!start_.meshes.empty()) waitUntil([this] { return knows_mesh_; }, kAnswerTimeout);
+    publish(topics_.mesh_vertices, &SessionStart::vertices);
+    publish(kIntendTopic, &SessionStart::intends);
   }
 
+  // Gives them to each subscriber that comes, as one publisher for each would that latches.
   template <typename Pointer>
-  void publish(const std::string& topic, const std::vector<Pointer>& messages) {
-    if (messages.empty()) return;
+  void publish(const std::string& topic, std::vector<Pointer> SessionStart::*messages) {
+    if ((start_.*messages).empty()) return;
     using Message = std::remove_const_t<typename Pointer::element_type>;
-    const ros::Publisher publisher = node_.advertise<Message>(topic, kQueue);
-    require([&publisher] { return publisher.getNumSubscribers() > 0; }, "nobody subscribes to " + topic);
-    for (const Pointer& message : messages) publisher.publish(message);
-    publishers_.push_back(publisher);
+    const ros::SubscriberStatusCallback give = [this, topic,
+                                                messages](const ros::SingleSubscriberPublisher& subscriber) {
+      const SessionStart known = knownOn(topic);
+      for (const Pointer& message : known.*messages) subscriber.publish(*message);
+      if (subscriber.getSubscriberName() == guard_.getNamespace()) given_.insert(topic);
+    };
+    publishers_.push_back(node_.advertise<Message>(topic, kQueue, give));
+    require([this, &topic] { return given_.count(topic) > 0; }, "the guard does not subscribe to " + topic);
+  }
+
+  // Who comes while it is played gets what counts by now of what is latched as a rule.
+  SessionStart knownOn(const std::string& topic) const {
+    if (!playing_) return start_;
+    SessionTopics latched;
+    if (topic == topics_.mesh) latched.mesh = topic;
+    return topic == topics_.mesh || topic == kStaticTransformsTopic ? readStart(files_, latched, now())
+                                                                    : SessionStart();
   }
 
   // The guard holds a warning by the clock of the machine, which is not that of the session. While it holds one, it
-  // tells nothing of those that are lower.
+  // tells nothing of those that are lower: half of the time is over before the session's, even if a contact came late.
   void scaleHoldTime() {
     if (rate_ == 1.0) return;
     dynamic_reconfigure::Reconfigure change;
     change.request.config.doubles.resize(1);
     change.request.config.doubles[0].name = kHoldTime;
-    change.request.config.doubles[0].value = std::min(guard_.param(kHoldTime, 0.5) / rate_, kMaxHoldTime);
+    change.request.config.doubles[0].value = std::min(0.5 * toSeconds(hold_time_) / rate_, kMaxHoldTime);
     if (ros::service::call(guard_.resolveName("set_parameters"), change)) return;
-    ROS_WARN("the guard does not take %s / rate: its warnings last for rate times as long as in the session",
+    ROS_WARN("the guard does not change %s: levels that begin while it holds a higher one may be reported late",
              kHoldTime);
   }
 
@@ -267,7 +298,10 @@ class ReplayReport {
   void onContacts(const sweep_guard::Contacts::ConstPtr& contacts) {
     log_.addSweep(fromMsg(contacts->interval_start), fromMsg(contacts->header.stamp));
     for (const sweep_guard::ObjectContacts& object : contacts->objects) {
-      if (sweep_guard_recording::isInContact(object)) log_.add(toSweepContact(*contacts, object));
+      if (sweep_guard_recording::isInContact(object)) {
+        log_.add(toSweepContact(*contacts, object));
+        touched_at_.push_back(fromMsg(contacts->header.stamp));
+      }
       if (!sweep_guard_recording::trianglesInContact(object).empty()) last_touch_ = fromMsg(contacts->header.stamp);
     }
   }
@@ -275,13 +309,30 @@ class ReplayReport {
   void onWarning(const sweep_guard::Warning::ConstPtr& warning) {
     warned_ = true;
     knows_mesh_ = (warning->reasons & sweep_guard::Warning::NO_MESH) == 0;
-    if (!playing_) return;
-    LoggedWarning received{std::max(now(), bag_.begin), static_cast<sweep_guard_core::WarningLevel>(warning->level),
-                           warning->text};
-    if (warning->time_to_collision >= ros::Duration(0)) {
-      received.time_to_collision = sweep_guard_core::Duration(warning->time_to_collision.toNSec());
+    if (playing_) heard_.push_back(toGuardWarning(*warning));
+  }
+
+  // What is only held says when it was over, by the clock of the machine.
+  GuardWarning toGuardWarning(const sweep_guard::Warning& warning) const {
+    GuardWarning heard;
+    const Time computed = fromMsg(warning.valid_until) - sweep_guard_core::kWarningValid;
+    heard.computed = std::max(computed, heard_.empty() ? bag_.begin : heard_.back().computed);
+    heard.pose = fromMsg(warning.header.stamp);
+    heard.level = static_cast<sweep_guard_core::WarningLevel>(warning.level);
+    heard.text = warning.text;
+    if (warning.time_to_collision >= ros::Duration(0))
+      heard.time_to_collision = Duration(warning.time_to_collision.toNSec());
+    if (warning.held) {
+      const Duration over_for = computed - fromMsg(warning.held_since);
+      heard.over_for = sweep_guard_core::fromSeconds(rate_ * toSeconds(over_for));
     }
-    log_.add(received);
+    return heard;
+  }
+
+  void logWarnings() {
+    const Time end = std::max(now(), bag_.begin);
+    for (const LoggedWarning& warning : holdWarnings(heard_, touched_at_, hold_time_, end)) log_.add(warning);
+    log_.end(end);
   }
 
   void report() {
@@ -300,15 +351,20 @@ class ReplayReport {
               << "contacts.csv, touches.csv, surfaces.csv, levels.csv, collisions.csv, sound.wav" << std::endl;
   }
 
+  std::vector<std::string> paths_;
   SessionFiles files_;
   std::string output_;
   double rate_;
   ros::NodeHandle guard_;
+  Duration hold_time_;  // of the guard
   SessionTopics topics_;
   SessionBag bag_;
+  SessionStart start_;
   SessionLog log_;
+  std::vector<GuardWarning> heard_;
+  std::vector<Time> touched_at_;  // stamps, ascending
   TouchLog touches_;
-  sweep_guard_core::Time last_touch_;  // stamp of the newest pose that touched
+  Time last_touch_;  // stamp of the newest pose that touched
   bool warned_ = false;
   bool knows_mesh_ = false;
   bool playing_ = false;
@@ -319,6 +375,7 @@ class ReplayReport {
   std::vector<ros::Subscriber> touched_;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::Publisher> publishers_;
+  std::set<std::string> given_;  // topics on which the guard has what was before
 };
 
 }  // namespace

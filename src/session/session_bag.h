@@ -30,6 +30,7 @@ struct SessionBag {
   sweep_guard_core::Time start;               ///< it is played from here on
   sweep_guard_core::Time end;                 ///< last message
   std::vector<std::string> missing{};         ///< what the guard will lack, and what to do, in words
+  std::vector<std::string> config{};          ///< describeConfig()
 };
 
 /// Checks a recorded session before it is played.

@@ -27,13 +27,13 @@ void extend(Contact& contact, const SweepContact& sweep_contact) {
   contact.depth = std::fmax(contact.depth, sweep_contact.depth);  // fmax() ignores NaN
 }
 
-// A sweep belongs to the contact in which it is received, or to the previous contact if its pose lies in that one.
+// A sweep belongs to the contact in which its pose lies, or to the next one.
 void assign(const std::vector<SweepContact>& sweep_contacts, std::vector<Contact>& contacts) {
-  std::size_t i = 0;
+  auto contact = contacts.begin();
   for (const SweepContact& sweep_contact : sweep_contacts) {
-    while (i < contacts.size() && sweep_contact.received > contacts[i].end) ++i;
-    const bool late = i > 0 && sweep_contact.stamp <= contacts[i - 1].end;
-    if (late || i < contacts.size()) extend(contacts[late ? i - 1 : i], sweep_contact);
+    while (contact != contacts.end() && sweep_contact.stamp > contact->end) ++contact;
+    if (contact == contacts.end()) return;
+    extend(*contact, sweep_contact);
   }
 }
 

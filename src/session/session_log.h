@@ -13,7 +13,7 @@
 
 namespace sweep_guard_session {
 
-/// A warning and the time when it was received.
+/// A warning and the time from which on it counts.
 struct LoggedWarning {
   sweep_guard_core::Time received;  ///< on the session's clock; not earlier than that of the previous warning
   sweep_guard_core::WarningLevel level = sweep_guard_core::WarningLevel::kUnknown;
@@ -31,7 +31,6 @@ struct Segment {
 
 /// The contact of one sweep with one workpiece.
 struct SweepContact {
-  sweep_guard_core::Time received;  ///< on the session's clock
   sweep_guard_core::Time first;  ///< first contact between the two poses, or the stamp of the first pose if not known
   sweep_guard_core::Time stamp;  ///< of the second pose
   std::string mesh_id;
@@ -53,7 +52,7 @@ struct Contact {
   sweep_guard_core::Duration reflex_lead;      ///< the same for REFLEX and CONTACT
 };
 
-/// Collects the messages of a guard during a session, in the order of arrival.
+/// Collects the warnings and sweeps of a guard during a session, each in order.
 class SessionLog {
  public:
   void add(const LoggedWarning& warning);

@@ -67,8 +67,10 @@ std::string sweptLine(const SessionLog& log, const SessionBag& bag) {
   const auto covered = static_cast<std::size_t>(
       std::count_if(bag.poses.begin(), bag.poses.end(), [&swept](Time pose) { return swept.covers(pose); }));
   if (covered > swept.size()) {
-    line += fmt::format("; {} poses waited for the next, or were refused: rate:=0.5 gives this machine more time",
-                        covered - swept.size());
+    line += fmt::format(
+        "; {} poses waited for the next, up to {:.3f} s were swept at once, or were refused: rate:=0.5 gives this "
+        "machine more time",
+        covered - swept.size(), toSeconds(swept.longest()));
   }
   if (covered < bag.poses.size()) line += fmt::format("\n           {} poses NOT SWEPT", bag.poses.size() - covered);
   if (!bag.poses.empty() && *swept.last() < bag.poses.back()) {
@@ -185,6 +187,7 @@ std::string summary(const SessionLog& log, const SessionBag& bag) {
   std::string text =
       fmt::format("session    {:.1f} s{}, {} poses, {} meshes, {} updates of vertices\n",
                   toSeconds(bag.end - bag.begin), startOf(bag), bag.poses.size(), bag.meshes, bag.vertices);
+  for (const std::string& line : bag.config) text += "config     " + line + '\n';
   for (const std::string& missing : bag.missing) text += "missing    " + missing + '\n';
   text += sweptLine(log, bag);
   text += levelTable(log) + longestUnknown(log, bag.begin);

@@ -38,6 +38,12 @@ TEST(SweptIntervalsTest, OfPosesWithEqualStampsTheIntervalOfTheFirstCounts) {
   EXPECT_EQ(swept.size(), 2U);
 }
 
+TEST(SweptIntervalsTest, TheLongestIsOfAllOfThem) {
+  EXPECT_EQ(SweptIntervals().longest(), milliseconds(0));
+  EXPECT_EQ(sweptOver({{10, 10}, {10, 30}, {40, 50}}).longest(), milliseconds(20));
+  EXPECT_EQ(sweptOver({{10, 15}, {12, 15}, {20, 29}}).longest(), milliseconds(9));
+}
+
 TEST(SweptIntervalsTest, CoverNothingWhenNothingWasSwept) {
   const SweptIntervals swept;
   EXPECT_FALSE(swept.covers(at(0)));

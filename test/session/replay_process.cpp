@@ -10,9 +10,7 @@
 #include <sstream>
 
 namespace sweep_guard_session {
-namespace {
 
-// Free for the moment.
 int freePort() {
   const int handle = socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};
@@ -24,8 +22,6 @@ int freePort() {
   close(handle);
   return ntohs(address.sin_port);
 }
-
-}  // namespace
 
 std::vector<std::vector<std::string>> readCsv(const std::filesystem::path& path) {
   std::vector<std::vector<std::string>> lines;
@@ -45,8 +41,7 @@ std::string readText(const std::filesystem::path& path) {
 }
 
 std::string replayBag(const std::filesystem::path& bag, const std::filesystem::path& folder,
-                      const std::string& arguments) {
-  const int port = freePort();
+                      const std::string& arguments, int port) {
   std::ostringstream command;
   command << "ROS_HOME=" << folder << " ROS_IP=127.0.0.1 ROS_MASTER_URI=http://127.0.0.1:" << port
           << " timeout 100 roslaunch -p " << port << " sweep_guard replay.launch bag:=" << bag

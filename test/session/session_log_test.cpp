@@ -22,9 +22,9 @@ struct ReceivedLevel {
   std::string text = {};
 };
 
-SweepContact sweepContactAt(int first, int received, std::uint32_t triangle, double depth) {
+SweepContact sweepContactAt(int first, std::uint32_t triangle, double depth) {
   const int stamp = first + 4;
-  return {at(received), at(first), at(stamp), "liver", "tip", {triangle}, depth};
+  return {at(first), at(stamp), "liver", "tip", {triangle}, depth};
 }
 
 SessionLog logOf(const std::vector<ReceivedLevel>& levels, const std::vector<SweepContact>& contacts, int end) {
@@ -56,7 +56,7 @@ TEST(SessionLogTest, ASegmentHasTheTextThatLastedLongest) {
 TEST(SessionLogTest, LeadsEndAtTheFirstContactOfASweep) {
   const std::vector<Contact> contacts =
       logOf({{0, kClear}, {1000, kConsidered}, {1700, kReflex}, {1910, kContact}, {2600, kClear}},
-            {sweepContactAt(1900, 1909, 7, 0.001), sweepContactAt(1910, 1919, 8, 0.003)}, 2600)
+            {sweepContactAt(1900, 7, 0.001), sweepContactAt(1910, 8, 0.003)}, 2600)
           .contacts();
   ASSERT_EQ(contacts.size(), 1U);
   EXPECT_EQ(contacts[0].begin, at(1900));
@@ -71,7 +71,7 @@ TEST(SessionLogTest, LeadsEndAtTheFirstContactOfASweep) {
 
 TEST(SessionLogTest, AnInterruptedWarningCountsFromItsReturn) {
   const Contact contact = logOf({{0, kConsidered}, {500, kUnknown}, {600, kConsidered}, {1000, kContact}},
-                                {sweepContactAt(1000, 1000, 1, 0.0)}, 1100)
+                                {sweepContactAt(1000, 1, 0.0)}, 1100)
                               .contacts()
                               .at(0);
   EXPECT_EQ(contact.considered_lead, milliseconds(400));
@@ -80,7 +80,7 @@ TEST(SessionLogTest, AnInterruptedWarningCountsFromItsReturn) {
 
 TEST(SessionLogTest, TheRestOfAWarningAfterAContactCountsAnew) {
   const std::vector<Contact> contacts = logOf({{0, kReflex}, {100, kContact}, {700, kReflex}, {900, kContact}},
-                                              {sweepContactAt(90, 100, 1, 0.0), sweepContactAt(890, 900, 2, 0.0)}, 1000)
+                                              {sweepContactAt(90, 1, 0.0), sweepContactAt(890, 2, 0.0)}, 1000)
                                             .contacts();
   ASSERT_EQ(contacts.size(), 2U);
   EXPECT_EQ(contacts[1].reflex_lead, milliseconds(190));
@@ -89,17 +89,15 @@ TEST(SessionLogTest, TheRestOfAWarningAfterAContactCountsAnew) {
 
 TEST(SessionLogTest, AWarningAfterTheFirstContactHasNoLead) {
   const Contact contact =
-      logOf({{0, kClear}, {95, kReflex}, {100, kContact}}, {sweepContactAt(90, 100, 1, NAN)}, 200).contacts().at(0);
+      logOf({{0, kClear}, {95, kReflex}, {100, kContact}}, {sweepContactAt(90, 1, NAN)}, 200).contacts().at(0);
   EXPECT_EQ(contact.reflex_lead, milliseconds(0));
   EXPECT_TRUE(std::isnan(contact.depth));
 }
 
-// Without a hold time, the last contact of a sweep arrives after the level has fallen.
-TEST(SessionLogTest, ASweepReceivedAfterItsContactBelongsToIt) {
+TEST(SessionLogTest, ASweepBelongsToTheContactOfItsPose) {
   const std::vector<Contact> contacts =
       logOf({{0, kContact}, {100, kReflex}, {500, kContact}},
-            {sweepContactAt(0, 0, 1, 0.001), sweepContactAt(95, 101, 2, 0.002), sweepContactAt(490, 500, 3, 0.003)},
-            600)
+            {sweepContactAt(0, 1, 0.001), sweepContactAt(95, 2, 0.002), sweepContactAt(490, 3, 0.003)}, 600)
           .contacts();
   ASSERT_EQ(contacts.size(), 2U);
   EXPECT_EQ(contacts[0].triangles, (Triangles{1, 2}));
@@ -111,7 +109,7 @@ TEST(SessionLogTest, ASweepReceivedAfterItsContactBelongsToIt) {
 
 TEST(SessionLogTest, ASweepInWhichAContactEndedBelongsToTheNextOne) {
   const std::vector<Contact> contacts = logOf({{0, kContact}, {100, kClear}, {105, kContact}},
-                                              {sweepContactAt(0, 4, 1, 0.001), sweepContactAt(98, 105, 2, 0.002)}, 200)
+                                              {sweepContactAt(0, 1, 0.001), sweepContactAt(98, 2, 0.002)}, 200)
                                             .contacts();
   ASSERT_EQ(contacts.size(), 2U);
   EXPECT_EQ(contacts[0].triangles, Triangles{1});
@@ -119,8 +117,9 @@ TEST(SessionLogTest, ASweepInWhichAContactEndedBelongsToTheNextOne) {
   EXPECT_EQ(contacts[1].mesh_id, "liver");
 }
 
-TEST(SessionLogTest, ASweepReceivedAfterTheLastContactBelongsToIt) {
-  const SessionLog log = logOf({{0, kContact}, {100, kClear}}, {sweepContactAt(95, 101, 1, 0.001)}, 200);
+TEST(SessionLogTest, ASweepAfterTheLastContactBelongsToNone) {
+  const SessionLog log =
+      logOf({{0, kContact}, {100, kClear}}, {sweepContactAt(95, 1, 0.001), sweepContactAt(101, 2, 0.001)}, 200);
   EXPECT_EQ(log.contacts().at(0).triangles, Triangles{1});
 }
 

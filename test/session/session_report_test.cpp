@@ -35,7 +35,7 @@ SessionLog oneContact() {
   log.add({at(500), WarningLevel::kConsidered, "CONSIDERED", milliseconds(900)});
   log.add({at(1200), WarningLevel::kReflex, "REFLEX", milliseconds(100)});
   log.add({at(1310), WarningLevel::kContact, "CONTACT: tool meets 'a, b'", milliseconds(0)});
-  log.add({at(1310), at(1300), at(1310), "a, b", "tip", {3, 4}, 0.0025});
+  log.add({at(1300), at(1310), "a, b", "tip", {3, 4}, 0.0025});
   log.addSweep(at(1290), at(1310));
   log.end(at(2000));
   return log;
@@ -65,7 +65,8 @@ TEST(SessionReportTest, WritesTheTimeToCollisionOfEachWarning) {
 TEST(SessionReportTest, SummaryNamesContactsAndPosesNotSwept) {
   SessionLog log = oneContact();
   EXPECT_TRUE(has(summary(log, bagOf(1)), "swept      1 times, without a gap\n"));
-  EXPECT_TRUE(has(summary(log, bagOf(2)), "; 1 poses waited for the next, or were refused"));
+  EXPECT_TRUE(
+      has(summary(log, bagOf(2)), "; 1 poses waited for the next, up to 0.020 s were swept at once, or were refused"));
   EXPECT_TRUE(has(summary(log, bagOf(1)), "ahead of 1 of 1, by 0.10 s in the median"));
   log.addSweep(at(1360), at(1370));
   EXPECT_TRUE(has(summary(log, bagOf(2)), "0.050 s between two poses NOT SWEPT"));
@@ -79,6 +80,16 @@ TEST(SessionReportTest, SummarySaysFromWhereOnItWasPlayedAndWhatWasMissing) {
   const std::string text = summary(oneContact(), bag);
   EXPECT_TRUE(has(text, "session    2.0 s (played from 1.5 s on), 1 poses, ")) << text;
   EXPECT_TRUE(has(text, "\nmissing    no transform of 'table'\nmissing    no vertices\nswept ")) << text;
+}
+
+TEST(SessionReportTest, SummaryNamesTheConfiguration) {
+  SessionBag bag = bagOf(1);
+  EXPECT_FALSE(has(summary(oneContact(), bag), "config"));
+  bag.config = {"/x/black_box_1.yaml"};
+  bag.missing = {"no vertices"};
+  EXPECT_TRUE(has(summary(oneContact(), bag), " vertices\nconfig     /x/black_box_1.yaml\nmissing    no vertices\n"));
+  bag.config.emplace_back("it differs from that of /x/black_box_2.bag");
+  EXPECT_TRUE(has(summary(oneContact(), bag), ".yaml\nconfig     it differs from that of /x/black_box_2.bag\n"));
 }
 
 TEST(SessionReportTest, SummaryCountsAPoseAsSweptOnlyWithinAnInterval) {
