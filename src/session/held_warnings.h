@@ -23,8 +23,7 @@ struct GuardWarning {
 /// Returns the warnings of a session as a guard gives them that holds them by the session's clock and is never late: a contact
 /// lasts from the stamp of the first pose to that of the last one that touched and `hold_time` longer, a prediction from when it
 /// was computed until `hold_time` after its end. What is beneath a level that the guard itself holds is not known; where it holds
-/// one for longer, that is the next level that it tells, or UNKNOWN if
-/// it tells none.
+/// one for longer, that is the next level that it tells, or UNKNOWN if it tells none.
 /// @param warnings   in the order of `computed`
 /// @param touches    stamps of poses of sweeps that touched a workpiece, ascending
 /// @param hold_time  >= 0
