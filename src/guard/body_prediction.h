@@ -27,7 +27,7 @@ struct BodyPredictionRequest {
 };
 
 /// Tests the predicted motion of one body against every workpiece, one sweep at a time. A workpiece whose test fails is
-/// reported, and the others are tested. Consecutive workpieces in one place share the sweeps of the body. Keeps its buffers.
+/// reported, and the others are tested. Consecutive workpieces share the sweeps of the body as in PathChecker. Keeps its buffers.
 class BodyPrediction {
  public:
   explicit BodyPrediction(const GuardOptions& options)

@@ -19,7 +19,7 @@ struct QueryOrigin {
   bool measured = true;     ///< the tool has moved so; false: it is expected to
   std::uint64_t epoch = 0;  ///< of the monitor, when the pose was received
   StampedPose from =
-      {};  ///< the tool pose that was swept before `to`; if that is the first one, and of a prediction: `to`
+      {};  ///< the last tool pose swept before, maybe before time jumped; if there is none, and of a prediction: `to`
   StampedPose to = {};  ///< the newest tool pose
 };
 
@@ -86,8 +86,8 @@ struct Disagreement {
 /// @throws DeviceError if the other detector fails
 Disagreement crossCheck(const SampledQuery& query, Detector& other);
 
-/// Names a query and the triangles in one line: tool poses, mesh, and the volume in M with all digits. With the mesh out of a
-/// recording, detectors can be asked the same again.
+/// Names a query and up to 20 triangles of each kind in one line: tool poses, mesh, and the volume in M with all digits. With
+/// the mesh out of a recording, detectors can be asked the same again.
 std::string describe(const SampledQuery& query, const Disagreement& disagreement);
 
 /// Returns the triangles that the detector was asked about: ascending.

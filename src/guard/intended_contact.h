@@ -58,7 +58,7 @@ class IntendedTriangles {
 };
 
 /// Keeps which links of the tool have touched a workpiece as intended: each until it is 10 mm away from the box around
-/// the regions, in M, or until nothing is intended there any more.
+/// the regions, in M, until nothing is intended there any more, or until a sweep leaves the workpiece out.
 class IntendedTouches {
  public:
   /// Takes over what a sweep found.

@@ -43,7 +43,7 @@ class IntentionStore {
 
   void clear();  ///< nothing is intended any more
 
-  /// Returns what is intended now; not null. The same object until that changes.
+  /// Returns what is intended now; not null. The same object until that changes, or set() is called.
   std::shared_ptr<const Intentions> at(SteadyTime now);
 
  private:

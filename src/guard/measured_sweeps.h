@@ -52,7 +52,7 @@ class MeasuredSweeps {
   /// Takes the last sweep back: its report was lost. The next one repeats it.
   void takeBack() noexcept;
 
-  /// Forgets all poses.
+  /// Forgets all poses, sweeps and contacts.
   void reset();
 
   /// Forgets the contacts of a tool or a detector that was exchanged, and that the tool was outside.

@@ -83,7 +83,7 @@ class NearestPieceFinder {
  public:
   explicit NearestPieceFinder(double max_deviations) : meter_(max_deviations), max_deviations_(max_deviations) {}
 
-  /// Returns whether find() without a limit would find a piece. Takes a fraction of its time.
+  /// Returns whether a piece is near. If none is, find() finds none. Takes a fraction of its time.
   bool any(const WorkpieceOnPath& on_path, const Submesh& submesh, const SweptSegment& swept,
            const PieceBounds& bounds);
 

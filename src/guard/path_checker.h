@@ -30,8 +30,9 @@ namespace sweep_guard_core {
 /// measured (PredictedSweep). Once the plan is out of time, sweeps beyond the reflex interval are neither halved nor
 /// handed to the detector: a triangle counts as met if no plane of a volume separates it from the volume.
 ///
-/// Cost: one volume for each sweep of the plan and sub-motion, shared by all workpieces in one place; one look at the boxes
-/// of the mesh for each sweep; more only where the tool comes near. Keeps its buffers. Source: [P, Sec. 3.2].
+/// Cost: one volume for each sweep of the plan and sub-motion, shared by consecutive workpieces in one place that rests and
+/// with the same rounding; one look at the boxes of the mesh for each sweep; more only where the tool comes near. Keeps its
+/// buffers. Source: [P, Sec. 3.2].
 class PathChecker {
  public:
   /// @param finest          a sweep with contact is halved until it lasts no longer than this, > 0

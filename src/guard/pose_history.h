@@ -14,7 +14,7 @@ namespace sweep_guard_core {
 
 /// The poses of the tool T and of a frame M in the fixed frame W at one moment.
 struct PoseSample {
-  std::uint64_t number;  ///< counts the poses of the tool
+  std::uint64_t number;  ///< ascends, see PoseHistories
   Time stamp;
   Eigen::Isometry3d X_WT;
   Eigen::Isometry3d X_WM;
@@ -94,8 +94,8 @@ class SparseMotion {
   double deviation_bound_ = 0.0;
 };
 
-/// Joins the measured poses of a body of the tool with those of a frame that another guard measures into poses of both at the
-/// same times: at the stamps of either, up to the older of both newest stamps.
+/// Joins the measured poses of a body of the tool with those of a frame that moves on its own into poses of both at the same
+/// times: at the stamps of either, up to the older of both newest stamps.
 class JoinedMotion {
  public:
   /// Adds the newest pose of the body; stamps do not decrease. Of more than 8192 that wait, it goes straight past the oldest.

@@ -17,7 +17,7 @@ namespace sweep_guard_core {
 /// How to cut a predicted path into sweeps, and how long they may take.
 struct SweepPlan {
   std::vector<size_t> sweep_ends;       ///< pose numbers from findSweepEnds(); empty: every pose ends a sweep
-  std::function<bool()> out_of_time{};  ///< true once the time after the reflex interval is used up; empty: never
+  std::function<bool()> out_of_time{};  ///< true once the time for the whole prediction is used up; empty: never
 
   size_t sweepCount(const PredictedPath& path) const { return sweep_ends.empty() ? path.size() : sweep_ends.size(); }
   /// Returns the number of the pose that a sweep begins at. The measured pose is number 0.

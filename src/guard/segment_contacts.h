@@ -13,7 +13,7 @@ namespace sweep_guard_core {
 struct SegmentContacts {
   bool meets = false;        ///< a piece meets the mesh
   PieceApproach nearest;     ///< of the pieces that meet it
-  TriangleSet newly_met;     ///< triangles that they meet, but for those reported before: ascending, each once
+  TriangleSet newly_met;     ///< triangles that they meet; of detect(), only those not reported before: ascending
   bool only_volume = false;  ///< the hulls of all pieces miss what their volumes meet; only looked at if asked for
 
   void clear();  ///< keeps the buffer

@@ -74,8 +74,8 @@ class SweepChecker {
 /// @throws DeviceError if the detector fails
 SweepResult checkSweep(Detector& detector, const SweepRequest& request);
 
-/// Merges the result of a later sub-motion into `all`. Times of impact stay as they are. Depths are those at the end of
-/// the later sub-motion, and 0 for triangles that it does not touch.
+/// Merges the result of a later sub-motion into `all`: of each triangle the first contact, but rather one that is not intended.
+/// Depths are those at the end of the later sub-motion, and 0 for triangles that it does not touch.
 void unite(SweepResult& all, const SweepResult& later);
 
 /// Merges what another body of the tool met in the same time into `all`: of each triangle the first contact, but rather one

@@ -11,7 +11,7 @@ namespace sweep_guard_core {
 /// its steps. Costs are counted in tested volumes: a sweep takes one, or several if it turns far or might meet a workpiece.
 class TimeBudget {
  public:
-  /// @param cycle  time available for one pose: its measured sweep and all predicted ones, > 0
+  /// @param cycle  as GuardOptions::cycle
   TimeBudget(const HorizonOptions& horizon, Duration cycle);
 
   /// Returns the number of sweeps to cut the considered interval into, from 1 to consideredSweeps() of the horizon.
@@ -21,7 +21,7 @@ class TimeBudget {
   /// @param bodies              each of which is swept as often; counted in the volumes already
   size_t consideredSweeps(size_t reflex_volumes, size_t considered_volumes, size_t bodies = 1) const;
 
-  /// Returns the time that is left for the prediction, >= 0.
+  /// Returns the time for one prediction: 75 % of the cycle less that of one measured sweep, >= 0.
   Duration forPrediction() const;
 
   /// Records how long the newest measured sweep took.

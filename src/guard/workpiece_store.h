@@ -65,13 +65,14 @@ class WorkpieceStore {
 
   /// Replaces vertices, times and frame of a workpiece. `updates` and `path_length` continue, even in another frame.
   /// @param latest  as for set()
-  /// @returns kIgnored if the workpiece was removed at this stamp or later
+  /// @returns kIgnored if the workpiece was removed, see remove()
   /// @throws InvalidInput if the revision differs, if the stamp is older than the snapshot's, or if
   ///     TriangleMesh::deform() refuses the positions
   UpdateOutcome deform(const Deformation& deformation, Time latest);
 
   /// Removes a workpiece.
-  /// @param stamp  vertices of this workpiece that are stamped no later are ignored from now on
+  /// @param stamp  vertices of this workpiece that are stamped no later than this, or than its snapshot, are ignored; not after
+  ///     clearStamps() or 64 more removals
   /// @returns false if there is no such workpiece
   bool remove(const std::string& id, Time stamp);
 

@@ -114,8 +114,8 @@ class Guard {
   /// Sets where contact is meant, from the next sweep and the next prediction on. Contact as intended is reported apart
   /// (SweepResult::intended) and is not predicted. After a link has touched a workpiece as intended, other contact of the
   /// two is predicted only where the predicted path itself meets the workpiece, not where it is merely probable. That ends
-  /// once the link is 10 mm away from the box around the regions that it may touch, or may touch none any more. Without
-  /// narrow phase (SweepOptions::fine), nothing is intended.
+  /// once the link is 10 mm away from the box around the regions that it may touch, may touch none any more, or the
+  /// workpiece is not swept. Without narrow phase (SweepOptions::fine), nothing is intended.
   /// @param intentions  not null
   void intend(std::shared_ptr<const Intentions> intentions);
   /// Returns where contact is meant: nowhere without narrow phase.

@@ -25,7 +25,7 @@ struct GuardOptions {
   double max_deviations = 3.09;
   /// Contact of these pairs is reported apart (SweepResult::allowed), is not predicted, and keeps nothing from being clear.
   AllowedPairs allowed = {};
-  Duration cycle = fromSeconds(1.0 / 15.0);  ///< time available for the sweep to one pose and for its prediction, > 0
+  Duration cycle = fromSeconds(1.0 / 15.0);  ///< a prediction may take 75 % of it less the time of one sweep, > 0
   /// Clock that measures what sweeps cost; must not be empty or go back (not checked). Called in the guard's thread.
   std::function<SteadyTime()> clock = std::chrono::steady_clock::now;
 };

@@ -87,7 +87,7 @@ class BoundedSubscriber : public ros::Subscriber {
   std::shared_ptr<void> closing_;
 };
 
-/// Subscribes to messages whose lengths are checked before memory is reserved for them. All subscriptions of a process to a
+/// Subscribes to messages whose lengths are checked before they are read. All subscriptions of a process to a
 /// topic receive the same message, which the first of them reads and may refuse, by its own limit.
 /// @param refused  called in place of `callback` with the reason. Any thread
 template <typename Msg>
@@ -133,7 +133,7 @@ class BoundedCalls : public ros::ServiceCallbackHelperT<Spec> {
   const Admit admit_;
 };
 
-/// Advertises a service whose requests are checked before memory is reserved for them.
+/// Advertises a service whose requests are checked before they are read.
 /// @tparam Spec  ros::ServiceSpec or ros::ServiceEvent
 /// @param refused  fills the response from the reason; returns whether it is sent
 /// @param admit    called before a request is read; throws sweep_guard_core::Error to refuse it

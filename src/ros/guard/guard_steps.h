@@ -73,8 +73,7 @@ struct RunningPrediction {
 };
 
 /// The steps that the guard's thread makes: the sweep to a pose, the sweep to a frame that is known further, a prediction.
-/// Each tells the monitor, the statistics and the publishers what it found. Used by that thread only, but for the constructor
-/// and Guard::stop().
+/// Each tells the monitor what it found, and publishes it. Used by that thread only, but for the constructor and Guard::stop().
 class GuardSteps {
  public:
   /// @throws sweep_guard_core::InvalidInput if a parameter is refused
@@ -90,22 +89,24 @@ class GuardSteps {
   void setTop(ThreadTop& top) { top_ = &top; }
 
   enum class Taken { kOutdated, kPassed, kToSweep };
-  /// Takes a pose, unless it is from before a restart. Passes it if that is enough: it is then part of the motion to the next
-  /// one. If not, sweep() comes next. What throws in either leaves the pose to be taken again.
-  /// @param next  pose that waits behind it; null: none does
+  /// Takes a pose, unless it need not be swept (WarningMonitor::isToBeSwept()). Passes it if the next one knows all its frames, or
+  /// if it is `anew`: it is then part of the motion to the next one. If not, sweep() comes next. What throws in either leaves
+  /// the pose to be taken again.
+  /// @param next  pose behind it in the same batch; null: there is none
   Taken take(sweep_guard_core::QueuedPose& queued, const sweep_guard_core::QueuedPose* next);
   /// Sweeps to the pose that was taken.
   void sweep(sweep_guard_core::QueuedPose& queued);
   /// Sweeps against what is known further of frames, up to the newest pose. If it fails, the next sweep makes up for it.
   void sweepOn();
 
-  /// Returns whether a prediction may begin at the newest pose: it is swept, and no pose has passed since.
+  /// Returns whether a prediction may begin: none has begun at the newest swept pose, and no pose was passed since, but for
+  /// those that are `anew`.
   bool mayPredict() const { return prediction_due_ && passed_.empty(); }
-  /// Returns whether the workpieces have other triangles than at the last prediction.
+  /// Returns whether the workpieces had other triangles at the newest pose than at the last prediction.
   bool trianglesAreNew() const { return triangles_are_new_; }
   /// Chooses the newest pose for a prediction. Returns whether it is fresh; if not, none may begin.
   bool choosePose(const sweep_guard_core::Instant& now);
-  /// Begins a prediction from the chosen pose. Between its steps, take() may be called, and resumePrediction() after that.
+  /// Begins a prediction from the chosen pose. Between its steps, take() and sweep() may be called, then resumePrediction().
   RunningPrediction beginPrediction(const sweep_guard_core::Instant& now, sweep_guard_core::PredictionPace& pace);
   void resumePrediction();
   void endPrediction(const RunningPrediction& running);
@@ -113,7 +114,7 @@ class GuardSteps {
   void forget();  ///< begins a new epoch; keeps the workpieces and what the predictor has learned
 
   /// Returns the newest swept pose.
-  /// @throws sweep_guard_core::Error if there is none, or it is stale
+  /// @throws sweep_guard_core::Error if there is none, it is stale, or the guard is disabled
   const sweep_guard_core::QueuedPose& freshPose() const;
   /// Predicts the motion up to a horizon counted from now.
   /// @throws sweep_guard_core::Error as freshPose(), and if no motion is known

@@ -14,14 +14,14 @@
 
 namespace sweep_guard_ros {
 
-/// Runs the guard in one thread: sweeps to every queued pose, or passes a pose if another one waits, so that a backlog is
-/// swept as one motion. Without poses, sweeps against frames that are known further than before.
+/// Runs the guard in one thread: takes the queued poses in batches, and sweeps to each or passes it (GuardSteps::take()), so
+/// that a backlog is swept as one motion. Without poses, sweeps against frames that are known further than before.
 ///
-/// Predicts from the newest swept pose: if no pose waits, once PredictionPace says so, and at once if the workpieces have
-/// other triangles; in any case after a cycle. Poses that come during a prediction are swept between its steps until 50 ms
-/// after its begin; later ones wait for its end.
+/// Predicts after a sweep, from its pose if that is fresh: if no pose waits, and PredictionPace says so or the workpieces have
+/// other triangles; or if the last prediction began a cycle ago. Otherwise waits for a later pose, but not beyond that cycle.
+/// Poses that come during a prediction are swept between its steps until 50 ms after its begin, or until a sweep throws.
 ///
-/// Runs queued tasks between two batches of poses, or two tries of a pose that fails; never during a prediction.
+/// Runs queued tasks between two batches of poses, or two tries of a pose whose sweep throws; never during a prediction.
 class GuardThread {
  public:
   /// @throws sweep_guard_core::InvalidInput if a parameter is refused
@@ -39,14 +39,14 @@ class GuardThread {
   /// @throws sweep_guard_core::Error if the thread does not begin with it within 0.5 s, other parameters were set or the
   ///     tool was exchanged meanwhile, too many tasks wait, or the guard is shutting down; then nothing is set, also later
   void apply(const std::shared_ptr<const Parameters>& next);
-  /// Exchanges the tool, and forgets the poses and what rests on them, as reset() does: the warning is UNKNOWN until two
-  /// other poses have arrived. Returns when that is done. Any thread.
+  /// Exchanges the tool. Forgets what reset() does, except what was learned: the warning is UNKNOWN or CONTACT until two other
+  /// poses have arrived. Returns when that is done. Any thread.
   /// @param before        parameters that `next` was made from
   /// @param change_store  takes the payload out of the workpieces or puts it back, between the same two sweeps; may throw
   /// @throws sweep_guard_core::Error as apply(); then nothing is exchanged
   void exchangeTool(const std::shared_ptr<const Parameters>& before, const std::shared_ptr<const Parameters>& next,
                     const std::function<void()>& change_store);
-  /// Returns the newest swept pose. Any thread. The future throws sweep_guard_core::Error if there is none, or it is stale.
+  /// Returns the newest swept pose. Any thread. The future throws as GuardSteps::freshPose(), or std::future_error at shutdown.
   std::future<sweep_guard_core::PoseWithFrames> newestPose();
   /// Forgets poses, contacts, intentions and what was learned; keeps workpieces, parameters, touches and what is attached.
   /// Returns when that is done. Any thread.
@@ -58,8 +58,8 @@ class GuardThread {
   /// @throws sweep_guard_core::Error if there is nothing to acknowledge, or the tool is farther away than
   ///     warning/acknowledge_distance; or as apply(); then nothing is acknowledged, also later
   std::string acknowledge(const std::string& id);
-  /// Predicts the motion up to a horizon counted from now. Any thread. The future throws sweep_guard_core::Error if the
-  /// motion is unknown.
+  /// Predicts the motion up to a horizon counted from now. Any thread. The future throws as GuardSteps::motion(), or
+  /// std::future_error at shutdown.
   std::future<PredictService::Motion> predictMotion(sweep_guard_core::Duration horizon);
 
  private:

@@ -26,8 +26,9 @@ struct ReceivedPose {
   std::uint64_t static_changes = 0;  ///< as Frames counted them then
 };
 
-/// Locates poses of the tool in the fixed frame, in their order. A pose whose transform is late waits for it, for up to
-/// `timing/pose_timeout`, and those that come after it wait, too. A pose that waited is received when it is located. One thread.
+/// Locates poses of the tool in the fixed frame, in their order. A pose whose transform is late waits for it, and those that come
+/// after it wait, too. When another pose or transform comes, it is located, or refused if it has waited for longer than
+/// `timing/pose_timeout`. A pose that waited is received when it is located. One thread.
 class LatePoses {
  public:
   /// Both must outlive this.

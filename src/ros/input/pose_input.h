@@ -38,7 +38,7 @@ struct PoseInputDependencies {
 };
 
 /// Takes tool poses from the topic `tool_pose` or from tf, and positions of joints from `joint_states`, and refuses bad
-/// ones. LatePoses locates the poses in the fixed frame, ToolPath adds the frames of the workpieces; then they are queued.
+/// ones. LatePoses locates the poses in the fixed frame, ToolPath adds the frames of workpieces that rest; then they are queued.
 class PoseInput {
  public:
   PoseInput(const ros::NodeHandle& node, const LiveParameters& live, const PoseInputDependencies& dependencies);
@@ -47,11 +47,11 @@ class PoseInput {
 
   const sweep_guard_core::InputRecord& record() const { return record_; }
   const std::string& source() const { return source_; }  ///< resolved topics, or the tf frames
-  std::optional<std::uint32_t> publishers() const;       ///< of the topic; empty for tf
+  std::optional<std::uint32_t> publishers() const;       ///< of the topic of poses; empty: there is none
   const sweep_guard_core::RepeatedPositions& repeated() const { return repeated_; }
   std::uint64_t lost() const { return lost_; }  ///< poses that were sent and did not arrive, by header.seq
 
-  /// Applies static transforms that have changed though no pose has come for `timing/pose_timeout`. Any thread.
+  /// Applies changes of static transforms that are held back for longer than `timing/pose_timeout`, unless poses wait. Any thread.
   void applyLateChanges();
 
   /// Adds the pose of now of a tool from tf that no transform moves: it is at rest. Does so once in a cycle (`timing/min_rate`), or
@@ -99,7 +99,7 @@ class PoseInput {
   Checkpoint checkpoint_;                                 // of the previous input
   sweep_guard_core::ToolJumps jumps_;                     // in the states that come in
   sweep_guard_core::RepeatedPositions repeated_;          // of these states
-  std::optional<sweep_guard_core::Time> last_transform_;  // used by the tf listener's thread only
+  std::optional<sweep_guard_core::Time> last_transform_;  // used by onTransforms() only
   RestingPose resting_;
   sweep_guard_core::Time rested_until_;  // stamp of the newest pose of a tool from tf at rest
   sweep_guard_core::SequenceGaps gaps_;  // in header.seq

@@ -18,9 +18,9 @@
 
 namespace sweep_guard_ros {
 
-/// Adds the frames of the workpieces to poses of the tool, which are queued then. After a static transform has changed, the path
-/// to the next pose is swept where things were, then where they are: place() gives it in the old place, the caller applies the
-/// changes, repeat() gives it in the new one. Several changes count as one. One thread.
+/// Adds the frames of workpieces that rest to poses of the tool, which are queued then. After a static transform has changed, the
+/// path to the next pose is swept where things were, then where they are: place() gives it in the old place, the caller applies
+/// the changes, repeat() gives it in the new one. Several changes count as one. One thread.
 class ToolPath {
  public:
   using Checkpoint = sweep_guard_core::WarningMonitor::Checkpoint;

@@ -20,7 +20,7 @@ namespace sweep_guard_ros {
 /// Changes parameters while the node runs, by the protocol of dynamic_reconfigure: `~set_parameters`,
 /// `~parameter_descriptions`, `~parameter_updates`. Names, ranges and checks are those of loadParameters(). A request
 /// is applied as a whole, or refused as a whole with a message. If the parameter server does not take the applied
-/// values, the answer is an error that says so. So is that of a call that finds 4 others waiting: BUSY.
+/// values, the answer is an error that says so. Five calls are let in; any more are answered BUSY.
 class ReconfigureServer {
  public:
   /// Applies parameters that differ from the current ones. Returns when that is done, or throws and changes nothing.

@@ -15,11 +15,11 @@
 
 namespace sweep_guard_ros {
 
-/// Serves `~attach`: makes a workpiece that the tool holds part of the tool, or gives it back. At most 4 calls wait while one
-/// runs; any more are answered BUSY.
+/// Serves `~attach`: makes a workpiece that the tool holds part of the tool, or gives it back. Five calls are let in; any
+/// more are answered BUSY.
 class AttachService {
  public:
-  /// Returns the newest swept pose. The future throws sweep_guard_core::Error if there is none, or it is stale.
+  /// See GuardThread::newestPose().
   using NewestPose = std::function<std::future<sweep_guard_core::PoseWithFrames>()>;
   /// See GuardThread::exchangeTool().
   using ExchangeTool =

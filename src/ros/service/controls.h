@@ -24,8 +24,8 @@ struct GuardControls {
 
 /// Serves `~enable`, `~reset`, `~acknowledge` and `~reset_touches`. While disabled, the warning is UNKNOWN and both flags
 /// stay raised. The guard refuses to be disabled at REFLEX or CONTACT: a gray light would hide the danger from the
-/// operator. It can always be reset: a contact that lasts is found again at the next pose. Without a next pose the contact
-/// is forgotten, and the warning is UNKNOWN. A call that finds 4 others of these services waiting is answered BUSY.
+/// operator. It may be reset at any level: a contact that lasts is found again at the next pose. Without a next pose the contact
+/// is forgotten, and the warning is UNKNOWN. Five calls of these services are let in; any more are answered BUSY.
 class Controls {
  public:
   Controls(const ros::NodeHandle& private_node, const LiveParameters& parameters,

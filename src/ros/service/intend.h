@@ -19,8 +19,8 @@
 
 namespace sweep_guard_ros {
 
-/// Serves `~intend` and takes `~intend_updates`: where the tool is meant to touch. Publishes `~intended`, latched. A call
-/// that finds 4 others waiting is answered BUSY.
+/// Serves `~intend` and takes `~intend_updates`: where the tool is meant to touch. Publishes `~intended`, latched. Five
+/// calls are let in; any more are answered BUSY.
 class IntendService {
  public:
   IntendService(const ros::NodeHandle& private_node, ServiceThreads& threads, const ServiceDependencies& dependencies,

@@ -19,12 +19,12 @@ constexpr size_t kMaxRequest = 1024;  ///< [bytes]; of a request that holds litt
 constexpr auto kTransformWait = std::chrono::milliseconds(100);  ///< of a call for a transform
 constexpr auto kGuardTimeout = std::chrono::seconds(1);          ///< of a call for a guard that is stuck in a sweep
 
-/// Hands the calls of one or more services to a thread that runs them and others. At most 4 of these calls wait while one
-/// runs. Any more are answered BUSY at once, in another thread. Both threads must be stopped first, and then the servers
+/// Hands the calls of one or more services to a thread that runs them and others. Lets five of these calls in, which wait or
+/// run. Any more are answered BUSY at once, in another thread. Both threads must be stopped first, and then the servers
 /// be destroyed.
 class LimitedCalls : public ros::CallbackQueueInterface {
  public:
-  static constexpr int kMaxWaiting = 4;
+  static constexpr int kMaxWaiting = 4;  ///< while one of them runs
 
   /// @param worker    runs the calls
   /// @param refusals  answers those that find no room; both must outlive this
@@ -32,7 +32,7 @@ class LimitedCalls : public ros::CallbackQueueInterface {
   LimitedCalls(const LimitedCalls&) = delete;
   LimitedCalls& operator=(const LimitedCalls&) = delete;
 
-  /// Advertises a service. Its requests are checked before memory is reserved for them.
+  /// Advertises a service. Its requests are checked before they are read.
   /// @param max_size  of a request [bytes]
   /// @param refused   as for advertiseBounded(); the reason may be that there is no room
   template <typename Spec>
@@ -64,7 +64,7 @@ class LimitedCalls : public ros::CallbackQueueInterface {
 
  private:
   struct State {
-    std::atomic<int> inside = 0;           // one runs, others wait
+    std::atomic<int> inside = 0;           // that wait or run
     sweep_guard_core::SteadyTime arrival;  // of the call that runs; used by the worker only
   };
   class CountedCall;

@@ -52,7 +52,8 @@ struct PathQuestion {
 
 /// Sweeps paths against the workpieces as they are now, for the services that ask. Has a thread and detectors of its own; each
 /// of these is tested when it is made (self_test). Works on a snapshot of the meshes, so the guard does not wait for it. A
-/// question is given up at its deadline, which counts from the arrival of the call.
+/// question is given up before its first sweep after its deadline, which counts from the arrival of the call. The caller waits
+/// 50 ms longer at most; a sweep that still runs delays the next question.
 class PathTests {
  public:
   /// @param frame_motions  of frames that tf does not have; null: there are none
@@ -76,6 +77,7 @@ class PathTests {
 
   /// Returns the workpieces with these ids; all, if there are none.
   /// @throws sweep_guard_core::InvalidInput if one does not exist, or there is no workpiece at all
+  /// @throws sweep_guard_core::Error if a workpiece was attached or detached meanwhile
   sweep_guard_core::Workpieces selected(const PathQuestion& question, const std::vector<std::string>& ids) const;
 
   /// Returns the transform from a frame to that of a mesh. Waits up to 0.1 s for it. The link of another tool is where it was
@@ -84,14 +86,13 @@ class PathTests {
   Eigen::Isometry3d transform(const std::string& mesh_frame, const std_msgs::Header& header) const;
 
   /// Returns what each tool meets along its path, in the order of the paths.
-  /// @throws sweep_guard_core::Error if the detector fails or failed its self-test, or if it takes longer than the
-  ///     deadline
+  /// @throws sweep_guard_core::Error if the detector fails or failed its self-test, or if the question is given up
   std::vector<sweep_guard_core::PathResult> test(const std::shared_ptr<const PathQuestion>& question);
 
   /// Returns what is wrong with these workpieces, all if there are no ids; empty: nothing.
   std::string meshProblems(const std::vector<std::string>& ids) const;
-  /// Returns the same, and which transform between these frames and those of the workpieces tested is too old. After the
-  /// test, which waits for late transforms, and during which a mesh may be refused.
+  /// Returns the same or, if that is nothing, which transform between these frames and those of the workpieces tested is too
+  /// old. After the test, which waits for late transforms, and during which a mesh may be refused.
   std::string doubts(const PathQuestion& question, const std::vector<std::string>& ids,
                      const std::set<std::string>& frames) const;
 
@@ -143,8 +144,8 @@ bool answerPath(Response& response, Check check) {
   return true;
 }
 
-/// Serves path tests. At most 4 calls wait while one runs; any more are answered BUSY at once. A path is given up at its
-/// deadline. The answer comes later if calls of other services keep the thread until then.
+/// Serves path tests. Five calls are let in; any more are answered BUSY at once. A path is given up after its deadline. The
+/// answer comes later if calls of other services keep the thread until then.
 class PathService {
  public:
   /// @param tests  must outlive it

@@ -21,23 +21,23 @@ namespace sweep_guard_ros {
 sweep_guard::Prediction predictionMsg(const sweep_guard_core::Prediction& prediction, sweep_guard_core::Duration age,
                                       const Parameters& parameters);
 
-/// Serves `~predict`: predicts the motion and its contacts for any horizon. The guard's thread predicts only the poses,
-/// in microseconds between two sweeps. The path is tested here, with a detector of its own and on a snapshot of the meshes,
-/// so the guard does not wait for a test. At most 4 calls wait while one runs; any more are answered BUSY.
+/// Serves `~predict`: predicts the motion and its contacts for a horizon of up to 5 s. The guard's thread predicts only the
+/// poses, in microseconds, as a task. The path is tested here, with a detector of its own and on a snapshot of the meshes,
+/// so the guard does not wait for a test; after 1 s, coarsely beyond the reflex interval. Five calls are let in; any more
+/// are answered BUSY.
 class PredictService {
  public:
   struct Motion {
     sweep_guard_core::PredictedMotion predicted;
     sweep_guard_core::Duration age;  ///< age of its first pose
   };
-  /// Predicts the motion up to a horizon counted from now. The future throws sweep_guard_core::Error if the motion is
-  /// unknown.
+  /// See GuardThread::predictMotion().
   using PredictMotion = std::function<std::future<Motion>(sweep_guard_core::Duration horizon)>;
 
   PredictService(const ros::NodeHandle& private_node, ServiceThreads& threads, const LiveParameters& live,
                  const sweep_guard_core::WorkpieceStore& workpieces, PredictMotion predict_motion);
 
-  void stop() { stopping_ = true; }  ///< tests the rest of each path coarsely: a running call ends soon. Any thread
+  void stop() { stopping_ = true; }  ///< tests what is beyond the reflex interval coarsely, to end soon. Any thread
 
  private:
   bool onCall(sweep_guard::Predict::Request& request, sweep_guard::Predict::Response& response);
