@@ -38,7 +38,7 @@ void updateMotion(const PoseWithFrames& pose, const std::shared_ptr<const Workpi
 
 PieceCover::Corners Facing::corners(std::uint32_t triangle) const {
   PieceCover::Corners corners = cover.corners(mesh().triangles()[triangle]);
-  const double depth = allowedDepth(triangle);
+  const double depth = intendedDepth(triangle);
   if (depth == 0.0) return corners;
   const Eigen::Vector3d inwards = (corners[2] - corners[0]).cross(corners[1] - corners[0]).stableNormalized();
   for (Eigen::Vector3d& corner : corners) corner += depth * inwards;

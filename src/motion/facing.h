@@ -46,8 +46,8 @@ struct Facing {
 
   const TriangleMesh& mesh() const { return surface->workpiece->mesh_M; }
   /// Returns how deep the piece may reach into a triangle [m]; 0: contact is not meant there.
-  double allowedDepth(std::uint32_t triangle) const { return surface->contact.intendedDepth(piece, triangle); }
-  /// Returns the corners. A triangle that the piece is meant to touch counts from the depth on that is allowed.
+  double intendedDepth(std::uint32_t triangle) const { return surface->contact.intendedDepth(piece, triangle); }
+  /// Returns the corners. A triangle that the piece is meant to touch counts from the intended depth on.
   PieceCover::Corners corners(std::uint32_t triangle) const;
   /// Returns the triangle of a cluster that the lowest bit stands for.
   std::uint32_t triangleAt(const Cluster& cluster, std::uint64_t bits) const;

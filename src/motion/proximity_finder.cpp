@@ -172,7 +172,7 @@ void ProximityFinder::Search::open(const WaitingPart& waiting, const Cluster& cl
   double rest = classified.not_nearer != 0 ? facing.nearest : kInfinity;
   for (std::uint64_t left = classified.nearer; left != 0; left &= left - 1) {
     const std::uint32_t triangle = facing.triangleAt(cluster, left);
-    if (facing.allowedDepth(triangle) > 0.0) continue;
+    if (facing.intendedDepth(triangle) > 0.0) continue;
     const double bound = std::max(waiting.bound, facing.cover.distance(facing.corners(triangle)));
     if (bound < limit) {
       push({bound, waiting.facing, triangle, static_cast<std::uint32_t>(classified.tested), Kind::kTriangle});
@@ -197,7 +197,7 @@ void ProximityFinder::Search::seed(const WaitingPart& waiting, const Cluster& cl
   std::uint32_t nearest = 0;
   for (std::uint64_t left = facing.cover.classify(cluster, box).nearer; left != 0; left &= left - 1) {
     const std::uint32_t triangle = facing.triangleAt(cluster, left);
-    if (facing.allowedDepth(triangle) > 0.0) continue;
+    if (facing.intendedDepth(triangle) > 0.0) continue;
     const double distance = facing.cover.distance(facing.corners(triangle));
     if (distance < least) nearest = triangle;
     least = std::min(least, distance);

@@ -34,7 +34,7 @@ struct ProximityRequest {
   /// Sweep to this pose: a triangle that the tool overlaps keeps the normal that it was first touched with. Null: the
   /// normal of the triangle is taken, to the side that frees the tool sooner.
   const SweepReport* swept = nullptr;
-  /// Where contact is meant: a triangle that a link may touch counts from the allowed depth on, for the pieces of this
+  /// Where contact is meant: a triangle that a link is meant to touch counts from the intended depth on, for the pieces of this
   /// link. Null: nowhere.
   const Intentions* intentions = nullptr;
   /// A workpiece is no surface for the pieces that may touch it. Null: none may.
