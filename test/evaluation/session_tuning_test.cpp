@@ -58,7 +58,8 @@ TEST(SessionTuningTest, PrintsYamlToPasteOrTheFewest) {
 
 TEST(SessionTuningTest, SharesOfNothingAreNoNumbers) {
   TuningPoint nothing = point(0.1, 0);
-  nothing.figures.count = {};
+  nothing.figures = {};
+  nothing.figures.minutes = 10.0;
   EXPECT_FALSE(has(tuningText({nothing}, 5.0), "nan"));
 }
 
