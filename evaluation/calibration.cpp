@@ -67,10 +67,10 @@ KnotVector minimize(const KnotMatrix& A, const KnotVector& b) {
   return x;
 }
 
-ReliabilityBin binOf(const Forecast* begin, const Forecast* end) {
+ReliabilityBin binOf(const PredictionOutcome* begin, const PredictionOutcome* end) {
   ReliabilityBin bin;
   bin.count = static_cast<size_t>(end - begin);
-  for (const Forecast* one = begin; one != end; ++one) {
+  for (const PredictionOutcome* one = begin; one != end; ++one) {
     bin.probability += one->probability / static_cast<double>(bin.count);
     bin.frequency += (one->met ? 1.0 : 0.0) / static_cast<double>(bin.count);
   }
@@ -104,13 +104,14 @@ size_t Calibration::count() const {
   return sum;
 }
 
-Calibration calibrationOf(std::vector<Forecast> forecasts) {
-  const auto low = [](const Forecast& one) { return one.probability < kMinForecast; };
+Calibration calibrationOf(std::vector<PredictionOutcome> forecasts) {
+  const auto low = [](const PredictionOutcome& one) { return one.probability < kMinForecast; };
   forecasts.erase(std::remove_if(forecasts.begin(), forecasts.end(), low), forecasts.end());
-  std::stable_sort(forecasts.begin(), forecasts.end(),
-                   [](const Forecast& a, const Forecast& b) { return a.probability < b.probability; });
+  std::stable_sort(forecasts.begin(), forecasts.end(), [](const PredictionOutcome& a, const PredictionOutcome& b) {
+    return a.probability < b.probability;
+  });
   Calibration calibration;
-  const Forecast* const begin = forecasts.data();
+  const PredictionOutcome* const begin = forecasts.data();
   const size_t count = forecasts.size();
   for (size_t i = 0; i < kBins && count >= kBins; ++i) {
     calibration.bins.push_back(binOf(begin + i * count / kBins, begin + (i + 1) * count / kBins));
@@ -118,7 +119,7 @@ Calibration calibrationOf(std::vector<Forecast> forecasts) {
     calibration.error +=
         std::abs(bin.probability - bin.frequency) * static_cast<double>(bin.count) / static_cast<double>(count);
   }
-  for (const Forecast& one : forecasts) {
+  for (const PredictionOutcome& one : forecasts) {
     calibration.brier += std::pow(one.probability - (one.met ? 1.0 : 0.0), 2.0) / static_cast<double>(count);
   }
   const ReliabilityBin all = binOf(begin, begin + count);

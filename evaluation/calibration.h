@@ -15,6 +15,7 @@ using sweep_guard_core::kMaxDeviations;
 struct PredictionOutcome {
   double deviations;  ///< smallest number of the sweeps that begin within the interval, as in PredictedSweep; finite
   bool met;           ///< the tool touched the object within the interval
+  double probability = 0.0;  ///< that was forecast from the deviations; set by IntervalCalibration::forecasts()
 };
 
 /// Returns the outcomes of the predictions from one pose in every 50 ms, so that a minute counts the same whatever the
@@ -27,12 +28,6 @@ struct PredictionOutcome {
 std::vector<PredictionOutcome> outcomesOf(const RecordedMotion& motion, const GuardFindings& findings, size_t object,
                                           const std::vector<TimeInterval>& touches,
                                           sweep_guard_core::Duration interval);
-
-/// A probability and whether the event came.
-struct Forecast {
-  double probability;
-  bool met;
-};
 
 /// Forecasts of similar probability.
 struct ReliabilityBin {
@@ -55,7 +50,7 @@ struct Calibration {
 constexpr double kMinForecast = 0.01;
 constexpr size_t kBins = 10;
 
-Calibration calibrationOf(std::vector<Forecast> forecasts);
+Calibration calibrationOf(std::vector<PredictionOutcome> forecasts);
 
 /// Deviations of the knots of a probability that falls with them: linear between knots, 0 beyond the last one.
 constexpr std::array<double, 13> kKnots = {-kMaxDeviations, -2.0, -1.0, -0.5, 0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 2.5,

@@ -27,7 +27,7 @@ std::vector<PredictionOutcome> allBut(const std::vector<std::vector<PredictionOu
   return all;
 }
 
-std::string figuresRow(const std::string& name, const std::vector<Forecast>& forecasts) {
+std::string figuresRow(const std::string& name, const std::vector<PredictionOutcome>& forecasts) {
   const Calibration figures = calibrationOf(forecasts);
   return fmt::format("    {:<28} {:>8} {:>8.4f} {:>8.4f} {:>8.3f} {:>8.2f}\n", name, figures.count(), figures.error,
                      figures.brier, figures.skill, figures.ratio);
@@ -77,24 +77,22 @@ std::string knotsTable(const std::vector<IntervalCalibration>& calibrations) {
 
 }  // namespace
 
-std::vector<Forecast> IntervalCalibration::forecasts(Scale scale, size_t recording) const {
+std::vector<PredictionOutcome> IntervalCalibration::forecasts(Scale scale, size_t recording) const {
   const auto knots = scale == Scale::kOthers ? fitProbability(allBut(outcomes, recording)) : std::vector<double>();
   const auto probabilityOf = [&](double deviations) {
     if (scale == Scale::kPlane) return sweep_guard_core::contactProbability(deviations);
     if (scale == Scale::kGuard) return sweep_guard_core::probabilityWithin(interval, deviations);
     return probabilityAt(knots, deviations);
   };
-  std::vector<Forecast> forecasts;
-  for (const PredictionOutcome& one : outcomes[recording]) {
-    forecasts.push_back({probabilityOf(one.deviations), one.met});
-  }
+  std::vector<PredictionOutcome> forecasts = outcomes[recording];
+  for (PredictionOutcome& one : forecasts) one.probability = probabilityOf(one.deviations);
   return forecasts;
 }
 
-std::vector<Forecast> IntervalCalibration::forecasts(Scale scale) const {
-  std::vector<Forecast> all;
+std::vector<PredictionOutcome> IntervalCalibration::forecasts(Scale scale) const {
+  std::vector<PredictionOutcome> all;
   for (size_t i = 0; i < recordings.size(); ++i) {
-    const std::vector<Forecast> some = forecasts(scale, i);
+    const std::vector<PredictionOutcome> some = forecasts(scale, i);
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;

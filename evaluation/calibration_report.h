@@ -24,9 +24,9 @@ struct IntervalCalibration {
   std::vector<std::vector<PredictionOutcome>> outcomes;  ///< by recording
 
   /// Returns the forecasts of a recording.
-  std::vector<Forecast> forecasts(Scale scale, size_t recording) const;
+  std::vector<PredictionOutcome> forecasts(Scale scale, size_t recording) const;
   /// Returns the forecasts of all recordings.
-  std::vector<Forecast> forecasts(Scale scale) const;
+  std::vector<PredictionOutcome> forecasts(Scale scale) const;
 };
 
 /// Returns the calibration of both intervals.

@@ -33,11 +33,11 @@ double keptShareOf(const Twist& output_W, const Twist& command_W, double radius)
   return speed > 0.0 ? fastestPoint(output_W, radius) / speed : 1.0;
 }
 
-DelayedGuardOptions guardOf(const ClosedLoopSetup& setup) {
-  DelayedGuardOptions options = setup.guard;
-  options.motion.dead_time = setup.robot.dead_time;
-  options.motion.time_constant = setup.robot.lag;
-  return options;
+DelayedGuardOptions guardOf(const ClosedLoopOptions& options) {
+  DelayedGuardOptions guard = options.guard;
+  guard.motion.dead_time = options.robot.dead_time;
+  guard.motion.time_constant = options.robot.lag;
+  return guard;
 }
 
 bool followsAt(const DrivenRobot& driven, size_t cycle) {
@@ -53,8 +53,8 @@ size_t cyclesBefore(const DrivenRobot& driven, size_t cycle, size_t count) {
 }
 
 ClosedLoop loopAt(LoopScene& scene, const DrivenRobot& driven, size_t cycle, const SurfaceVelocity& surface,
-                  const ClosedLoopSetup& setup) {
-  return {scene, surface, driven.cycles[cycle], setup.guard.motion.standoff};
+                  const ClosedLoopOptions& options) {
+  return {scene, surface, driven.cycles[cycle], options.guard.motion.standoff};
 }
 
 // Lets a guard look on during one cycle. Returns whether it passes the command on.
@@ -66,17 +66,17 @@ bool watch(ClosedLoop& loop, const DrivenRobot& driven, size_t cycle) {
 // Adds up what the guard did to the commands.
 class Account {
  public:
-  Account(const ClosedLoopSetup& setup, ClosedLoopEpisode& episode) : setup_(setup), episode_(episode) {}
+  Account(const ClosedLoopOptions& options, ClosedLoopEpisode& episode) : options_(options), episode_(episode) {}
 
   void add(const LoopCycle& cycle) {
     const bool same = areSame(cycle.output_W, cycle.command_W);
-    since_reached_ = cycle.gap > setup_.guard.reach ? since_reached_ + 1 : 0;
+    since_reached_ = cycle.gap > options_.guard.reach ? since_reached_ + 1 : 0;
     if (since_reached_ > kReachedLater) {
       ++episode_.free_commands;
       if (!same) ++episode_.free_changed;
     }
     episode_.slowed = episode_.slowed || !same;
-    const double radius = setup_.tool.boundingRadius();
+    const double radius = options_.tool.boundingRadius();
     commanded_ += fastestPoint(cycle.command_W, radius);
     carried_ += fastestPoint(cycle.output_W, radius);
     if (commanded_ > 0.0) episode_.path_kept = carried_ / commanded_;
@@ -85,7 +85,7 @@ class Account {
   }
 
  private:
-  const ClosedLoopSetup& setup_;
+  const ClosedLoopOptions& options_;
   ClosedLoopEpisode& episode_;
   size_t since_reached_ = kReachedLater;
   double commanded_ = 0.0;
@@ -100,9 +100,9 @@ SurfaceVelocity velocityOf(const LoopScene& scene, const DrivenRobot::Cycle& beg
 }
 
 // A robot that rests where the placement has its contact, from the begin of the episode to its end.
-DrivenRobot resting(const DrivenRobot& driven, const ObstaclePlacement& placement, const ClosedLoopSetup& setup) {
+DrivenRobot resting(const DrivenRobot& driven, const ObstaclePlacement& placement, const ClosedLoopOptions& options) {
   const size_t end = std::min(driven.cycleAt(placement.end), driven.cycles.size() - 1);
-  const SimulatedRobot robot(driven.cycles[end].robot.pose(), setup.robot);
+  const SimulatedRobot robot(driven.cycles[end].robot.pose(), options.robot);
   DrivenRobot at_rest;
   for (Time time = placement.begin; time < placement.end + kAfterPlacement; time += kCommandPeriod)
     at_rest.cycles.push_back({time, {}, robot});
@@ -127,8 +127,8 @@ sweep_guard_core::Tool inPieces(const sweep_guard_core::ConvexShape& cylinder, s
 }
 
 std::optional<Time> beginOf(const DrivenRobot& driven, const ObstaclePlacement& placement,
-                            const ClosedLoopSetup& setup) {
-  LoopScene scene(setup.tool, placement.obstacle);
+                            const ClosedLoopOptions& options) {
+  LoopScene scene(options.tool, placement.obstacle);
   const size_t latest = driven.cycleAt(placement.begin);
   std::optional<Time> found;
   std::optional<ClosedLoop> loop;
@@ -137,31 +137,31 @@ std::optional<Time> beginOf(const DrivenRobot& driven, const ObstaclePlacement& 
   for (size_t cycle = cyclesBefore(driven, latest, kWatched); cycle < latest; ++cycle) {
     if (!loop) {
       scene.startAgain();
-      loop.emplace(loopAt(scene, driven, cycle, {}, setup)).addGuard(guardOf(setup));
+      loop.emplace(loopAt(scene, driven, cycle, {}, options)).addGuard(guardOf(options));
       watched = 0;
     }
     passed = watch(*loop, driven, cycle) ? passed + 1 : 0;
     if (++watched > kUntilPlanes && passed == 0) loop.reset();  // it would go on from what was not sent
-    const bool apart = scene.separationAt(driven.cycles[cycle + 1].robot.pose()).gap > setup.guard.motion.standoff;
+    const bool apart = scene.separationAt(driven.cycles[cycle + 1].robot.pose()).gap > options.guard.motion.standoff;
     if (passed >= kUntouchedCycles && apart) found = driven.cycles[cycle + 1].time;
   }
   return found;
 }
 
 ClosedLoopEpisode runEpisode(const DrivenRobot& driven, const ObstaclePlacement& placement,
-                             const ClosedLoopSetup& setup, const EpisodeKind& kind) {
+                             const ClosedLoopOptions& options, const EpisodeKind& kind) {
   Random random(kind.seed);
-  LoopScene scene(setup.tool, placement.obstacle);
+  LoopScene scene(options.tool, placement.obstacle);
   const size_t begin = driven.cycleAt(placement.begin);
   SurfaceVelocity surface;
   if (kind.surface_comes) surface = velocityOf(scene, driven.cycles[begin], placement.end, random);
   size_t cycle = cyclesBefore(driven, begin, kUntouchedCycles + kUntilPlanes);
-  ClosedLoop loop = loopAt(scene, driven, cycle, surface, setup);
-  if (kind.guarded) loop.addGuard(guardOf(setup));
+  ClosedLoop loop = loopAt(scene, driven, cycle, surface, options);
+  if (kind.guarded) loop.addGuard(guardOf(options));
   for (; cycle < begin; ++cycle) watch(loop, driven, cycle);
 
   ClosedLoopEpisode episode;
-  Account account(setup, episode);
+  Account account(options, episode);
   std::optional<ClosedLoop> held;
   double least_kept = kHeld;
   std::vector<Twist> came_W;
@@ -171,7 +171,7 @@ ClosedLoopEpisode runEpisode(const DrivenRobot& driven, const ObstaclePlacement&
     const LoopCycle ran = loop.run(driven.cycles[cycle].command_W);
     account.add(ran);
     came_W.push_back(loop.robot().velocity_W());
-    const double kept = keptShareOf(ran.output_W, ran.command_W, setup.tool.boundingRadius());
+    const double kept = keptShareOf(ran.output_W, ran.command_W, options.tool.boundingRadius());
     if (kept < least_kept) {
       least_kept = kept;
       held.emplace(loop);
@@ -181,14 +181,14 @@ ClosedLoopEpisode runEpisode(const DrivenRobot& driven, const ObstaclePlacement&
   }
   if (held && !kind.surface_comes) {
     scene.startAgain();
-    episode.retreats = retreatFrom(*held, came_to_held_W, setup.robot, setup.random_retreats, random);
+    episode.retreats = retreatFrom(*held, came_to_held_W, options.robot, options.random_retreats, random);
   }
   return episode;
 }
 
 ClosedLoopEpisode runEpisodeAtRest(const DrivenRobot& driven, const ObstaclePlacement& placement,
-                                   const ClosedLoopSetup& setup, const EpisodeKind& kind) {
-  return runEpisode(resting(driven, placement, setup), placement, setup, kind);
+                                   const ClosedLoopOptions& options, const EpisodeKind& kind) {
+  return runEpisode(resting(driven, placement, options), placement, options, kind);
 }
 
 }  // namespace sweep_guard_evaluation

@@ -3,20 +3,11 @@
 #include <optional>
 #include <vector>
 
+#include "evaluation/closed_loop_options.h"
 #include "evaluation/obstacle_placement.h"
 #include "evaluation/retreat.h"
 
 namespace sweep_guard_evaluation {
-
-struct ClosedLoopSetup {
-  sweep_guard_core::ConvexShape shape = sweep_guard_core::ConvexShape::cylinder(/*radius=*/0.005, /*length=*/0.1);
-  sweep_guard_core::Tool tool{shape};  ///< of this shape, in one or more pieces
-  RobotOptions robot;
-  DelayedGuardOptions guard;   ///< its delays of the robot are replaced by those of `robot`
-  size_t random_retreats = 4;  ///< of each kind, from each place where the guard held the tool
-  size_t placements = 80;      ///< along each recording
-  std::uint64_t seed = 1;      ///< of the placements
-};
 
 /// What happened at one placement.
 struct ClosedLoopEpisode {
@@ -44,16 +35,16 @@ sweep_guard_core::Tool inPieces(const sweep_guard_core::ConvexShape& cylinder, s
 /// tool is beyond the standoff and a guard has passed on every command for 0.2 s. A tool that is already too near and too
 /// fast when a surface appears could not be stopped by any guard. Empty: there is no such cycle in the 4 s before.
 std::optional<sweep_guard_core::Time> beginOf(const DrivenRobot& driven, const ObstaclePlacement& placement,
-                                              const ClosedLoopSetup& setup);
+                                              const ClosedLoopOptions& options);
 
 /// Runs one placement, until 2 s after its end, to the first contact or to a gap of the recording. The retreats are those
 /// from where a guard took most of a command, if that was more than half of it, before a surface at rest.
 /// @param placement  begins at a cycle of the driven robot, as beginOf() found it
 ClosedLoopEpisode runEpisode(const DrivenRobot& driven, const ObstaclePlacement& placement,
-                             const ClosedLoopSetup& setup, const EpisodeKind& kind);
+                             const ClosedLoopOptions& options, const EpisodeKind& kind);
 
 /// Runs one placement with a robot that rests where the driven one is when the placement ends.
 ClosedLoopEpisode runEpisodeAtRest(const DrivenRobot& driven, const ObstaclePlacement& placement,
-                                   const ClosedLoopSetup& setup, const EpisodeKind& kind);
+                                   const ClosedLoopOptions& options, const EpisodeKind& kind);
 
 }  // namespace sweep_guard_evaluation

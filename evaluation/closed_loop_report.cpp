@@ -26,11 +26,12 @@ constexpr double kKept = 0.99;
 constexpr double kMaxStandoffSpeed = 0.001;  // [m/s]
 
 // Along the path of the robot without a guard, each from where its episode begins.
-std::vector<ObstaclePlacement> placeAlong(const DrivenRobot& driven, const ClosedLoopSetup& setup, size_t& left_out) {
+std::vector<ObstaclePlacement> placeAlong(const DrivenRobot& driven, const ClosedLoopOptions& options,
+                                          size_t& left_out) {
   std::vector<ObstaclePlacement> placements;
   for (ObstaclePlacement& placement :
-       placeObstacles(RecordedMotion(driven.path), setup.shape, setup.placements, setup.seed)) {
-    if (const auto begin = beginOf(driven, placement, setup)) {
+       placeObstacles(RecordedMotion(driven.path), options.shape, options.placements, options.seed)) {
+    if (const auto begin = beginOf(driven, placement, options)) {
       placement.begin = *begin;
       placements.push_back(placement);
     } else {
@@ -140,17 +141,18 @@ std::string lineOf(const ClosedLoopCount& count) {
 
 }  // namespace
 
-std::vector<ClosedLoopCount> countClosedLoops(const std::vector<Recording>& recordings, const ClosedLoopSetup& setup,
-                                              size_t& left_out, const Progress& progress) {
+std::vector<ClosedLoopCount> countClosedLoops(const std::vector<Recording>& recordings,
+                                              const ClosedLoopOptions& options, size_t& left_out,
+                                              const Progress& progress) {
   std::vector<ClosedLoopCount> counts;
   for (const Recording& recording : recordings) {
-    const DrivenRobot driven = drive(RecordedMotion(recording.poses), setup.robot);
-    const std::vector<ObstaclePlacement> placements = placeAlong(driven, setup, left_out);
+    const DrivenRobot driven = drive(RecordedMotion(recording.poses), options.robot);
+    const std::vector<ObstaclePlacement> placements = placeAlong(driven, options, left_out);
     const Run run = [&](const ObstaclePlacement& each, const EpisodeKind& kind) {
-      return runEpisode(driven, each, setup, kind);
+      return runEpisode(driven, each, options, kind);
     };
     const Run run_at_rest = [&](const ObstaclePlacement& each, const EpisodeKind& kind) {
-      return runEpisodeAtRest(driven, each, setup, kind);
+      return runEpisodeAtRest(driven, each, options, kind);
     };
     const std::vector<ObstaclePlacement> met = withContact(placements);
     addCounts(recording.name, placements, /*surface_comes=*/false, run, counts);

@@ -20,7 +20,8 @@ struct ClosedLoopCount {
 /// Runs placements along recorded motions, as placeObstacles() finds them on the path of the robot without a guard.
 /// @param left_out  placements along a recording at which no episode can begin are added
 std::vector<ClosedLoopCount> countClosedLoops(const std::vector<sweep_guard_recording::Recording>& recordings,
-                                              const ClosedLoopSetup& setup, size_t& left_out, const Progress& progress);
+                                              const ClosedLoopOptions& options, size_t& left_out,
+                                              const Progress& progress);
 
 /// Returns the counts of all recordings together, one for each kind of surface and arm.
 std::vector<ClosedLoopCount> summed(const std::vector<ClosedLoopCount>& counts);

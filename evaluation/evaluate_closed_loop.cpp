@@ -26,7 +26,7 @@ int run(int argc, char** argv) {
   std::vector<ClosedLoopCount> counts;
   {
     ProgressBar bar("closed loop", steps);
-    counts = countClosedLoops(recordings, options.setup, left_out, [&](size_t poses) { bar.advance(poses); });
+    counts = countClosedLoops(recordings, options, left_out, [&](size_t poses) { bar.advance(poses); });
   }
   const std::vector<ClosedLoopCount> sums = summed(counts);
   counts.insert(counts.end(), sums.begin(), sums.end());

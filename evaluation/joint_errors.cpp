@@ -38,31 +38,6 @@ std::vector<double> positionsAt(const std::vector<StampedPositions>& states, Tim
   return positions;
 }
 
-class Errors {
- public:
-  void add(const sweep_guard_core::PredictedPose& predicted, const Eigen::Vector3d& found) {
-    const Eigen::Vector3d error = found - predicted.X_WT.translation();
-    Eigen::Matrix3d covariance = predicted.covariance.topLeftCorner<3, 3>();
-    covariance.diagonal().array() += kFloor * kFloor;
-    distances_.push_back(error.norm());
-    log_determinants_ += std::log(covariance.determinant());
-    squares_.push_back(error.dot(covariance.llt().solve(error)));
-  }
-
-  LinkErrors summary() const {
-    const double mean = log_determinants_ / static_cast<double>(squares_.size());
-    const double width = std::exp(mean / 6.0);
-    return {sweep_guard_core::quantile(distances_, 0.5), sweep_guard_core::quantile(distances_, 0.9), width,
-            width * std::sqrt(sweep_guard_core::quantile(squares_, 0.9) / kNineTenths)};
-  }
-  size_t size() const { return squares_.size(); }
-
- private:
-  std::vector<double> distances_;
-  std::vector<double> squares_;  // of Mahalanobis distances
-  double log_determinants_ = 0.0;
-};
-
 class JointComparison {
  public:
   explicit JointComparison(const JointErrorRequest& request)
@@ -90,8 +65,8 @@ class JointComparison {
     for (size_t link = 0; link < request_.links.size(); ++link) {
       for (size_t i = 0; i < request_.horizons.size(); ++i) {
         const size_t k = link * request_.horizons.size() + i;
-        reports.push_back({request_.tree.links()[request_.links[link]].name, request_.horizons[i],
-                           joint_errors_[k].summary(), pose_errors_[k].summary(), joint_errors_[k].size()});
+        reports.push_back({request_.tree.links()[request_.links[link]].name, request_.horizons[i], joint_errors_[k],
+                           pose_errors_[k]});
       }
     }
     return reports;
@@ -153,11 +128,28 @@ class JointComparison {
   sweep_guard_core::Horizon horizon_;
   sweep_guard_core::PredictedMotion motion_;
   std::vector<Eigen::Isometry3d> X_WB_;
-  std::vector<Errors> joint_errors_;  // by link, then by horizon
-  std::vector<Errors> pose_errors_;
+  std::vector<LinkErrors> joint_errors_;  // by link, then by horizon
+  std::vector<LinkErrors> pose_errors_;
 };
 
 }  // namespace
+
+void LinkErrors::add(const sweep_guard_core::PredictedPose& predicted, const Eigen::Vector3d& found) {
+  const Eigen::Vector3d error = found - predicted.X_WT.translation();
+  Eigen::Matrix3d covariance = predicted.covariance.topLeftCorner<3, 3>();
+  covariance.diagonal().array() += kFloor * kFloor;
+  distances_.push_back(error.norm());
+  log_determinants_ += std::log(covariance.determinant());
+  squares_.push_back(error.dot(covariance.llt().solve(error)));
+}
+
+double LinkErrors::distance(double share) const { return sweep_guard_core::quantile(distances_, share); }
+
+double LinkErrors::width() const { return std::exp(log_determinants_ / static_cast<double>(samples()) / 6.0); }
+
+double LinkErrors::calibratedWidth() const {
+  return width() * std::sqrt(sweep_guard_core::quantile(squares_, 0.9) / kNineTenths);
+}
 
 std::vector<JointErrorReport> compareJointPrediction(const JointErrorRequest& request) {
   JointComparison comparison(request);
@@ -173,10 +165,10 @@ std::string jointErrorCsv(const std::string& name, const std::string& predictor,
                    "calibrated_width_m", "samples"});
   }
   for (const JointErrorReport& report : reports) {
-    for (const auto& [by, errors] : {std::pair("joints", report.by_joints), std::pair("pose", report.by_pose)}) {
+    for (const auto& [by, errors] : {std::pair("joints", &report.by_joints), std::pair("pose", &report.by_pose)}) {
       csv += csvLine({name, predictor, report.link, csvNumber(sweep_guard_core::toSeconds(report.horizon)), by,
-                      csvNumber(errors.median), csvNumber(errors.p90), csvNumber(errors.width),
-                      csvNumber(errors.calibrated_width), std::to_string(report.samples)});
+                      csvNumber(errors->distance(0.5)), csvNumber(errors->distance(0.9)), csvNumber(errors->width()),
+                      csvNumber(errors->calibratedWidth()), std::to_string(errors->samples())});
     }
   }
   return csv;

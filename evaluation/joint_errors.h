@@ -19,14 +19,22 @@ struct JointErrorRequest {
 };
 
 /// The errors of predictions of the origin of a link. NaN without samples.
-struct LinkErrors {
-  double median;  ///< distance from where it came to be [m]
-  double p90;     ///< the same
-  /// Standard deviation [m] of a ball whose volume is that of the covariance, at its geometric mean: exp(log det / 6). A
-  /// millimeter is added to all deviations, since some links move in fewer than three directions.
-  double width;
-  /// The same of the covariance scaled to hold 90 % of the errors.
-  double calibrated_width;
+class LinkErrors {
+ public:
+  void add(const sweep_guard_core::PredictedPose& predicted, const Eigen::Vector3d& found);
+
+  size_t samples() const { return squares_.size(); }
+  double distance(double share) const;  ///< quantile of the distance from where it came to be [m]
+  /// Returns the standard deviation [m] of a ball whose volume is that of the covariance, at its geometric mean:
+  /// exp(log det / 6). A millimeter is added to all deviations, since some links move in fewer than three directions.
+  double width() const;
+  /// Returns the same of the covariance scaled to hold 90 % of the errors.
+  double calibratedWidth() const;
+
+ private:
+  std::vector<double> distances_;
+  std::vector<double> squares_;  // of Mahalanobis distances
+  double log_determinants_ = 0.0;
 };
 
 /// The prediction by joints and that of the pose of the link, on the same samples: those with 3 s before and the longest
@@ -36,7 +44,6 @@ struct JointErrorReport {
   sweep_guard_core::Duration horizon;
   LinkErrors by_joints;  ///< by MotionPredictor
   LinkErrors by_pose;    ///< by PosePredictor
-  size_t samples;
 };
 
 /// Passes every state to both predictors and compares their predictions with the recording. The root rests.

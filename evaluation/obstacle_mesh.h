@@ -18,6 +18,8 @@ class ObstacleMesh {
   /// @param tool    a cylinder; must outlive this object, as must the mesh
   ObstacleMesh(const sweep_guard_core::ConvexShape& tool, const sweep_guard_core::TriangleMesh& mesh_W);
 
+  const sweep_guard_core::ConvexShape& tool() const { return tool_; }
+
   /// Returns the clearance for firstContact(), in closed form. This object must outlive it.
   ClearanceAt clearance();
 

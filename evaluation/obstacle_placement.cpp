@@ -48,26 +48,20 @@ Eigen::Vector3d frontPoint(const ConvexShape& tool, const Eigen::Isometry3d& X_W
   return X_WT * (direction_T.dot(front) >= direction_T.dot(rear) ? front : rear);
 }
 
-struct ObstacleRange {
-  double tilt;      // of the normal against the velocity, at most [deg]
-  double shift;     // in the plane of the obstacle, at most [half sides]
-  double distance;  // from the tool, at most [m]
-};
-constexpr ObstacleRange kContactRange = {60.0, 0.9, 0.0};
-constexpr ObstacleRange kMissRange = {90.0, 2.0, kMaxGap};
-
 /// Returns an obstacle in a tangent plane of the tool at a moment that faces its velocity, shifted at random.
-SquareObstacle randomObstacle(const RecordedMotion& motion, const ConvexShape& tool, Time moment,
-                              const ObstacleRange& range, Random& random) {
+SquareObstacle randomObstacle(const RecordedMotion& motion, const ConvexShape& tool, Time moment, bool touched,
+                              Random& random) {
+  const double max_tilt = (touched ? 60.0 : 90.0) * kPi / 180.0;  // of the normal against the velocity
+  const double max_shift = touched ? 0.9 : 2.0;                   // in the plane of the obstacle [half sides]
   const Eigen::Matrix3d R_WV = random.frameWithZ(tipVelocityAt(motion, moment).normalized());
-  const double angle = random.uniform(0.0, range.tilt * kPi / 180.0);
+  const double angle = random.uniform(0.0, max_tilt);
   const Eigen::Vector3d normal_W = R_WV * Eigen::Vector3d(std::sin(angle), 0.0, std::cos(angle));
   SquareObstacle obstacle;
   obstacle.half_side = random.uniform(0.05, 0.15);
   obstacle.X_WS.linear() = random.frameWithZ(normal_W);
-  const double x = random.uniform(-range.shift, range.shift) * obstacle.half_side;
-  const double y = random.uniform(-range.shift, range.shift) * obstacle.half_side;
-  const double z = random.uniform(0.0, range.distance);
+  const double x = random.uniform(-max_shift, max_shift) * obstacle.half_side;
+  const double y = random.uniform(-max_shift, max_shift) * obstacle.half_side;
+  const double z = random.uniform(0.0, touched ? 0.0 : kMaxGap);
   obstacle.X_WS.translation() =
       frontPoint(tool, motion.at(moment), normal_W) + obstacle.X_WS.linear() * Eigen::Vector3d(x, y, z);
   return obstacle;
@@ -76,7 +70,7 @@ SquareObstacle randomObstacle(const RecordedMotion& motion, const ConvexShape& t
 std::optional<ObstaclePlacement> tryContact(const RecordedMotion& motion, const ConvexShape& tool, Random& random) {
   const std::optional<Time> moment = randomMoment(motion, Duration(0), random);
   if (!moment) return std::nullopt;
-  const SquareObstacle obstacle = randomObstacle(motion, tool, *moment, kContactRange, random);
+  const SquareObstacle obstacle = randomObstacle(motion, tool, *moment, /*touched=*/true, random);
   const Time begin = *moment - kBefore;
   const std::optional<Time> contact = firstContact(motion, tool, obstacle, begin, *moment);
   if (!contact || *contact < begin + kUntouchedBefore) return std::nullopt;
@@ -86,7 +80,7 @@ std::optional<ObstaclePlacement> tryContact(const RecordedMotion& motion, const 
 std::optional<ObstaclePlacement> tryMiss(const RecordedMotion& motion, const ConvexShape& tool, Random& random) {
   const std::optional<Time> moment = randomMoment(motion, kAfter + kUntouchedAfter, random);
   if (!moment) return std::nullopt;
-  const SquareObstacle obstacle = randomObstacle(motion, tool, *moment, kMissRange, random);
+  const SquareObstacle obstacle = randomObstacle(motion, tool, *moment, /*touched=*/false, random);
   if (!intersects(tool, motion.at(*moment), obstacle, kMaxGap)) return std::nullopt;
   const Time begin = *moment - kBefore;
   const Time end = *moment + kAfter;

@@ -5,10 +5,10 @@
 namespace sweep_guard_evaluation {
 
 using std::chrono::milliseconds;
-using sweep_guard_core::ConvexShape;
 using sweep_guard_core::Duration;
 using sweep_guard_core::Time;
 using sweep_guard_core::WarningLevel;
+using sweep_guard_recording::LevelTrace;
 
 namespace {
 
@@ -16,10 +16,12 @@ constexpr Duration kTouchStep = milliseconds(5);
 constexpr Duration kCoarseStep = milliseconds(20);
 constexpr double kDistanceTolerance = 1e-3;  // [m]
 
-bool isContact(const ObjectSession& session, size_t touch) {
-  const Time begin = session.touches[touch].begin;
-  const bool again = touch > 0 && begin - session.touches[touch - 1].end < kSessionWindow;
-  return !again && session.motion.isContinuous(begin - kSessionWindow, begin);
+double share(size_t part, size_t whole) { return static_cast<double>(part) / static_cast<double>(whole); }
+
+bool isContact(const RecordedMotion& motion, const std::vector<TimeInterval>& touches, size_t touch) {
+  const Time begin = touches[touch].begin;
+  const bool again = touch > 0 && begin - touches[touch - 1].end < kSessionWindow;
+  return !again && motion.isContinuous(begin - kSessionWindow, begin);
 }
 
 bool isOn(const std::vector<TimeInterval>& alarms, Time time) {
@@ -32,8 +34,8 @@ Time firstPoseFrom(const RecordedMotion& motion, Time time) {
   return motion.poses()[before].stamp == time ? time : motion.poses()[before + 1].stamp;
 }
 
-void countContact(const ObjectSession& session, Time contact, const std::vector<TimeInterval>& alarms,
-                  SessionCount& count) {
+void countContact(const RecordedMotion& motion, const LevelTrace& levels, Time contact,
+                  const std::vector<TimeInterval>& alarms, SessionCount& count) {
   ++count.contacts;
   const auto on = std::find_if(alarms.begin(), alarms.end(), [&](const TimeInterval& alarm) {
     return alarm.begin <= contact && alarm.end >= contact;
@@ -41,8 +43,8 @@ void countContact(const ObjectSession& session, Time contact, const std::vector<
   for (size_t i = 0; i < kSessionLeads.size(); ++i) {
     if (on != alarms.end() && contact - on->begin >= sweep_guard_core::fromSeconds(kSessionLeads[i])) ++count.warned[i];
   }
-  const Time known = firstPoseFrom(session.motion, contact);
-  if (!isOn(session.levels.alarms(WarningLevel::kReflex), known)) ++count.late;
+  const Time known = firstPoseFrom(motion, contact);
+  if (!isOn(levels.alarms(WarningLevel::kReflex), known)) ++count.late;
 }
 
 // The alarm comes from a sweep that began at the pose before it.
@@ -57,14 +59,16 @@ bool isJustified(const std::vector<TimeInterval>& touches, const TimeInterval& j
                      [&](const TimeInterval& touch) { return touch.begin <= judged.end && touch.end >= judged.begin; });
 }
 
-void countAlarm(const ObjectSession& session, const TimeInterval& alarm, SessionCount& count) {
+void countAlarm(const RecordedMotion& motion, const TimeInterval& alarm, bool measure_near_misses,
+                ObjectSession& object) {
+  SessionCount& count = object.count;
   ++count.alarms;
-  const TimeInterval judged = judgedInterval(session.motion, alarm);
-  if (isJustified(session.touches, judged)) return;
+  const TimeInterval judged = judgedInterval(motion, alarm);
+  if (isJustified(object.touches, judged)) return;
   ++count.unjustified;
   count.unjustified_time += alarm.end - alarm.begin;
-  if (!session.measures_near_misses) return;
-  const double nearest = nearestDistance(session.motion, session.tool, session.object, judged.begin, judged.end);
+  if (!measure_near_misses) return;
+  const double nearest = nearestDistance(motion, object.mesh, judged.begin, judged.end);
   for (size_t i = 0; i < kNearMisses.size(); ++i) {
     if (nearest < kNearMisses[i]) ++count.near_misses[i];
   }
@@ -72,12 +76,12 @@ void countAlarm(const ObjectSession& session, const TimeInterval& alarm, Session
 
 }  // namespace
 
-std::vector<TimeInterval> touchesOf(const RecordedMotion& motion, const ConvexShape& tool, ObstacleMesh& object) {
+std::vector<TimeInterval> touchesOf(const RecordedMotion& motion, ObstacleMesh& object) {
   const Time last = motion.poses().back().stamp;
   const ClearanceAt clearance = object.clearance();
   std::vector<TimeInterval> touches;
   Time from = motion.poses().front().stamp;
-  while (const auto contact = firstContact(motion, tool, clearance, from, last)) {
+  while (const auto contact = firstContact(motion, object.tool(), clearance, from, last)) {
     Time end = *contact;
     while (end < last && clearance(motion.at(end)) == 0.0) end = std::min(end + kTouchStep, last);
     touches.push_back({*contact, end});
@@ -87,18 +91,29 @@ std::vector<TimeInterval> touchesOf(const RecordedMotion& motion, const ConvexSh
   return touches;
 }
 
-double nearestDistance(const RecordedMotion& motion, const ConvexShape& tool, ObstacleMesh& object, Time from,
-                       Time to) {
+double nearestDistance(const RecordedMotion& motion, ObstacleMesh& object, Time from, Time to) {
   double nearest = object.distance(motion.at(to));
   for (Time time = from; time < to; time += kCoarseStep) nearest = std::min(nearest, object.distance(motion.at(time)));
   for (Time time = from; time < to && nearest > 0.0;) {
     const double distance = object.distance(motion.at(time));
     nearest = std::min(nearest, distance);
     const double left = distance - std::min(nearest, kExactDistance) + kDistanceTolerance;
-    time = std::max(earliestArrival(motion, tool, time, to, left), time + Duration(1));
+    time = std::max(earliestArrival(motion, object.tool(), time, to, left), time + Duration(1));
   }
   return nearest;
 }
+
+double SessionCount::warnedShare(size_t lead) const { return share(warned[lead], contacts); }
+
+double SessionCount::unjustifiedPerMinute() const { return static_cast<double>(unjustified) / minutes; }
+
+double SessionCount::precision() const { return share(alarms - unjustified, alarms); }
+
+double SessionCount::precisionWithin(size_t near) const {
+  return share(alarms - unjustified + near_misses[near], alarms);
+}
+
+double SessionCount::falseOnShare() const { return sweep_guard_core::toSeconds(unjustified_time) / 60.0 / minutes; }
 
 SessionCount& SessionCount::operator+=(const SessionCount& other) {
   contacts += other.contacts;
@@ -108,20 +123,22 @@ SessionCount& SessionCount::operator+=(const SessionCount& other) {
   unjustified += other.unjustified;
   unjustified_time += other.unjustified_time;
   for (size_t i = 0; i < near_misses.size(); ++i) near_misses[i] += other.near_misses[i];
+  minutes += other.minutes;
   return *this;
 }
 
-SessionCount countSession(const ObjectSession& session) {
-  SessionCount count;
-  const std::vector<TimeInterval> alarms = session.levels.alarms(WarningLevel::kConsidered);
-  for (size_t i = 0; i < session.touches.size(); ++i) {
-    if (isContact(session, i)) countContact(session, session.touches[i].begin, alarms, count);
+void countSession(const RecordedMotion& motion, const LevelTrace& levels, bool measure_near_misses,
+                  ObjectSession& object) {
+  object.count = {};
+  const std::vector<TimeInterval> alarms = levels.alarms(WarningLevel::kConsidered);
+  for (size_t i = 0; i < object.touches.size(); ++i) {
+    if (isContact(motion, object.touches, i))
+      countContact(motion, levels, object.touches[i].begin, alarms, object.count);
   }
   for (const TimeInterval& alarm : alarms) {
-    if (!session.motion.isContinuous(alarm.begin, alarm.begin + kSessionWindow)) continue;
-    countAlarm(session, alarm, count);
+    if (!motion.isContinuous(alarm.begin, alarm.begin + kSessionWindow)) continue;
+    countAlarm(motion, alarm, measure_near_misses, object);
   }
-  return count;
 }
 
 }  // namespace sweep_guard_evaluation

@@ -11,44 +11,22 @@ namespace {
 
 constexpr size_t kDraws = 1000;
 
-double share(size_t part, size_t whole) { return static_cast<double>(part) / static_cast<double>(whole); }
-
 }  // namespace
 
-double SessionFigures::warned(size_t lead) const { return share(count.warned[lead], count.contacts); }
-
-double SessionFigures::unjustifiedPerMinute() const { return static_cast<double>(count.unjustified) / minutes; }
-
-double SessionFigures::precision() const { return share(count.alarms - count.unjustified, count.alarms); }
-
-double SessionFigures::precisionWithin(size_t near) const {
-  return share(count.alarms - count.unjustified + count.near_misses[near], count.alarms);
-}
-
-double SessionFigures::falseOnShare() const {
-  return sweep_guard_core::toSeconds(count.unjustified_time) / 60.0 / minutes;
-}
-
-SessionFigures& SessionFigures::operator+=(const SessionFigures& other) {
-  minutes += other.minutes;
-  count += other.count;
-  return *this;
-}
-
-SessionFigures figuresOf(const RecordingSessions& sessions) {
-  SessionFigures figures;
+SessionCount sumOf(const RecordingSessions& sessions) {
+  SessionCount sum;
   for (const std::vector<SessionCount>& objects : sessions.objects) {
     for (const SessionCount& object : objects) {
-      figures.minutes += sessions.minutes;
-      figures.count += object;
+      sum.minutes += sessions.minutes;
+      sum += object;
     }
   }
-  return figures;
+  return sum;
 }
 
-SessionFigures figuresOf(const std::vector<RecordingSessions>& recordings) {
-  SessionFigures all;
-  for (const RecordingSessions& recording : recordings) all += figuresOf(recording);
+SessionCount sumOf(const std::vector<RecordingSessions>& recordings) {
+  SessionCount all;
+  for (const RecordingSessions& recording : recordings) all += sumOf(recording);
   return all;
 }
 

@@ -15,24 +15,8 @@ struct RecordingSessions {
   std::vector<std::vector<SessionCount>> objects;  ///< by session, then as placed
 };
 
-/// The figures of an operator who works beside one object after the other, each for a whole recording; shares are in
-/// [0, 1].
-struct SessionFigures {
-  double minutes = 0.0;  ///< beside an object: those of the recording, once for each object
-  SessionCount count;
-
-  double warned(size_t lead) const;           ///< share of contacts, by index of kSessionLeads; NaN without contacts
-  double unjustifiedPerMinute() const;        ///< NaN without time
-  double precision() const;                   ///< share of alarms that are justified; NaN without alarms
-  double precisionWithin(size_t near) const;  ///< the same with near misses, by index of kNearMisses
-  double falseOnShare() const;                ///< share of time in which an unjustified alarm is on
-
-  SessionFigures& operator+=(const SessionFigures& other);
-};
-
-SessionFigures figuresOf(const RecordingSessions& sessions);
-/// Sums up all recordings.
-SessionFigures figuresOf(const std::vector<RecordingSessions>& recordings);
+SessionCount sumOf(const RecordingSessions& sessions);
+SessionCount sumOf(const std::vector<RecordingSessions>& recordings);
 
 /// An interval that holds a figure with a probability of 95 %.
 struct Interval {

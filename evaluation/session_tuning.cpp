@@ -56,8 +56,8 @@ std::string tuningCsv(const std::vector<TuningPoint>& points, double unjustified
                                figures.unjustifiedPerMinute(), figures.precision()}) {
       fields.push_back(csvNumber(value));
     }
-    for (size_t lead = 0; lead < kSessionLeads.size(); ++lead) fields.push_back(csvNumber(figures.warned(lead)));
-    fields.push_back(std::to_string(figures.count.late));
+    for (size_t lead = 0; lead < kSessionLeads.size(); ++lead) fields.push_back(csvNumber(figures.warnedShare(lead)));
+    fields.push_back(std::to_string(figures.late));
     fields.push_back(csvNumber(figures.falseOnShare()));
     fields.push_back(csvNumber(unjustified_per_min));
     csv += csvLine(fields);
@@ -70,7 +70,7 @@ std::string tuningText(const std::vector<TuningPoint>& points, double unjustifie
   for (const auto& [thresholds, figures] : points) {
     text += fmt::format("  {:<13g}  {:<7g} {:>14.2f}  {:>9}  {:>12}  {:>11}  {:>14}\n", thresholds.considered_on,
                         thresholds.considered_off, figures.unjustifiedPerMinute(), shareText(figures.precision()),
-                        shareText(figures.warned(2)), shareText(figures.warned(3)), figures.count.late);
+                        shareText(figures.warnedShare(2)), shareText(figures.warnedShare(3)), figures.late);
   }
   const std::optional<TuningPoint> chosen = choosePoint(points, unjustified_per_min);
   if (chosen)

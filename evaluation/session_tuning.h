@@ -12,7 +12,7 @@ namespace sweep_guard_evaluation {
 /// Thresholds, and the figures that they give in the sessions of all recordings.
 struct TuningPoint {
   sweep_guard_core::WarningThresholds thresholds;
-  SessionFigures figures;
+  SessionCount figures;
 };
 
 /// Returns the thresholds to compare: `considered_on` from 0.002 to 1, ascending. `reflex` and `considered_off` stay as in

@@ -52,18 +52,15 @@ void Sessions::run(size_t number, const Progress& progress) {
   Part& part = parts_[number];
   part.findings = findContacts(recording_.poses, part.meshes_W, simulation_, progress);
   for (const TriangleMesh& mesh_W : part.meshes_W) {
-    Object& object = part.objects.emplace_back(Object{ObstacleMesh(simulation_.tool, mesh_W), {}, {}});
-    object.touches = touchesOf(motion_, simulation_.tool, object.mesh);
+    ObjectSession& object = part.objects.emplace_back(ObjectSession{ObstacleMesh(simulation_.tool, mesh_W), {}, {}});
+    object.touches = touchesOf(motion_, object.mesh);
   }
 }
 
 void Sessions::count(size_t number, const WarningLimits& limits, bool near_misses) {
   Part& part = parts_[number];
-  for (size_t i = 0; i < part.objects.size(); ++i) {
-    Object& object = part.objects[i];
-    const auto levels = levelsOf(part.findings, i, limits);
-    object.count = countSession({motion_, simulation_.tool, object.mesh, object.touches, levels, near_misses});
-  }
+  for (size_t i = 0; i < part.objects.size(); ++i)
+    countSession(motion_, levelsOf(part.findings, i, limits), near_misses, part.objects[i]);
 }
 
 std::vector<PredictionOutcome> Sessions::outcomes(sweep_guard_core::Duration interval) const {
@@ -80,7 +77,7 @@ std::vector<PredictionOutcome> Sessions::outcomes(sweep_guard_core::Duration int
 RecordingSessions Sessions::counted() const {
   std::vector<SessionCount> counts;
   for (const Part& part : parts_) {
-    for (const Object& object : part.objects) counts.push_back(object.count);
+    for (const ObjectSession& object : part.objects) counts.push_back(object.count);
   }
   RecordingSessions counted{recording_.name, minutesOf(motion_), std::vector<std::vector<SessionCount>>(sessions_)};
   for (size_t i = 0; i < counts.size(); ++i) counted.objects[i * sessions_ / counts.size()].push_back(counts[i]);
@@ -114,7 +111,7 @@ std::vector<TuningPoint> tuningCurve(std::vector<Sessions>& sessions, const Warn
   for (const auto& thresholds : tuningThresholds(limits.thresholds)) {
     WarningLimits changed = limits;
     changed.thresholds = thresholds;
-    points.push_back({thresholds, figuresOf(countSessions(sessions, changed, /*near_misses=*/false))});
+    points.push_back({thresholds, sumOf(countSessions(sessions, changed, /*near_misses=*/false))});
   }
   return points;
 }

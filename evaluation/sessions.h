@@ -37,15 +37,10 @@ class Sessions {
   const std::string& recording() const { return recording_.name; }
 
  private:
-  struct Object {
-    ObstacleMesh mesh;
-    std::vector<TimeInterval> touches;
-    SessionCount count;
-  };
   struct Part {
     std::vector<sweep_guard_core::TriangleMesh> meshes_W;  // not moved any more: the objects refer to them
     GuardFindings findings;
-    std::vector<Object> objects;
+    std::vector<ObjectSession> objects;
   };
 
   const sweep_guard_recording::Recording& recording_;

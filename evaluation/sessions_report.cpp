@@ -22,14 +22,14 @@ constexpr const char* kAll = "all";
 struct Figure {
   const char* column;
   const char* title;  // in the table
-  double (*of)(const SessionFigures&);
+  double (*of)(const SessionCount&);
 };
 
 constexpr Figure kFigures[] = {
-    {"warned_0.1", "warned 0.1 s", [](const auto& f) { return f.warned(0); }},
-    {"warned_0.3", "warned 0.3 s", [](const auto& f) { return f.warned(1); }},
-    {"warned_0.5", "warned 0.5 s", [](const auto& f) { return f.warned(2); }},
-    {"warned_1.0", "warned 1.0 s", [](const auto& f) { return f.warned(3); }},
+    {"warned_0.1", "warned 0.1 s", [](const auto& f) { return f.warnedShare(0); }},
+    {"warned_0.3", "warned 0.3 s", [](const auto& f) { return f.warnedShare(1); }},
+    {"warned_0.5", "warned 0.5 s", [](const auto& f) { return f.warnedShare(2); }},
+    {"warned_1.0", "warned 1.0 s", [](const auto& f) { return f.warnedShare(3); }},
     {"unjustified_per_min", "unjustified/min", [](const auto& f) { return f.unjustifiedPerMinute(); }},
     {"precision", "precision", [](const auto& f) { return f.precision(); }},
     {"precision_10mm", "within 10 mm", [](const auto& f) { return f.precisionWithin(0); }},
@@ -37,23 +37,23 @@ constexpr Figure kFigures[] = {
     {"precision_50mm", "within 50 mm", [](const auto& f) { return f.precisionWithin(2); }},
     {"false_on_share", "false on-time", [](const auto& f) { return f.falseOnShare(); }}};
 
-std::vector<double> valuesOf(const SessionFigures& figures) {
+std::vector<double> valuesOf(const SessionCount& figures) {
   std::vector<double> values;
   for (const Figure& figure : kFigures) values.push_back(figure.of(figures));
   return values;
 }
 
-std::string csvRow(const std::string& recording, const SessionFigures& figures) {
-  std::vector<std::string> fields = {recording, csvNumber(figures.minutes), std::to_string(figures.count.contacts)};
+std::string csvRow(const std::string& recording, const SessionCount& figures) {
+  std::vector<std::string> fields = {recording, csvNumber(figures.minutes), std::to_string(figures.contacts)};
   for (const double value : valuesOf(figures)) fields.push_back(csvNumber(value));
   return csvLine(fields);
 }
 
 std::string tableRows(const std::string& recording, const std::vector<RecordingSessions>& recordings) {
-  const SessionFigures figures = figuresOf(recordings);
-  const auto intervals = bootstrap([&](size_t draw) { return valuesOf(figuresOf(resampled(recordings, draw))); });
+  const SessionCount figures = sumOf(recordings);
+  const auto intervals = bootstrap([&](size_t draw) { return valuesOf(sumOf(resampled(recordings, draw))); });
   std::string rows = fmt::format("{}: {:.1f} min, {} contacts, {} without REFLEX, {} alarms\n", recording,
-                                 figures.minutes, figures.count.contacts, figures.count.late, figures.count.alarms);
+                                 figures.minutes, figures.contacts, figures.late, figures.alarms);
   for (size_t i = 0; i < intervals.size(); ++i) {
     const Figure& figure = kFigures[i];
     rows += fmt::format("  {:<16} {:6.3f}  [{:.3f}, {:.3f}]\n", figure.title, figure.of(figures), intervals[i].lower,
@@ -92,12 +92,12 @@ bool sameSessions(const RecordingSessions& a, const RecordingSessions& b) {
   const auto same_objects = [](const auto& x, const auto& y) { return x.size() == y.size(); };
   return a.recording == b.recording &&
          std::equal(a.objects.begin(), a.objects.end(), b.objects.begin(), b.objects.end(), same_objects) &&
-         figuresOf(a).count.contacts == figuresOf(b).count.contacts;
+         sumOf(a).contacts == sumOf(b).contacts;
 }
 
-std::vector<double> ratiosOf(const SessionFigures& now, const SessionFigures& before) {
+std::vector<double> ratiosOf(const SessionCount& now, const SessionCount& before) {
   return {now.unjustifiedPerMinute() / before.unjustifiedPerMinute(), now.precision() - before.precision(),
-          now.warned(2) - before.warned(2), now.warned(3) - before.warned(3)};
+          now.warnedShare(2) - before.warnedShare(2), now.warnedShare(3) - before.warnedShare(3)};
 }
 
 }  // namespace
@@ -106,8 +106,8 @@ std::string sessionsCsv(const std::vector<RecordingSessions>& recordings) {
   std::vector<std::string> columns = {"recording", "minutes", "contacts"};
   for (const Figure& figure : kFigures) columns.emplace_back(figure.column);
   std::string csv = csvLine(columns);
-  for (const RecordingSessions& recording : recordings) csv += csvRow(recording.recording, figuresOf(recording));
-  return csv + csvRow(kAll, figuresOf(recordings));
+  for (const RecordingSessions& recording : recordings) csv += csvRow(recording.recording, sumOf(recording));
+  return csv + csvRow(kAll, sumOf(recordings));
 }
 
 std::string sessionsTable(const std::vector<RecordingSessions>& recordings) {
@@ -160,11 +160,10 @@ std::string sessionsComparison(const std::vector<RecordingSessions>& recordings,
   if (!std::equal(recordings.begin(), recordings.end(), before.begin(), before.end(), sameSessions)) {
     throw InvalidInput("the runs to compare differ in recordings, sessions, objects or contacts");
   }
-  const SessionFigures now = figuresOf(recordings);
-  const std::vector<double> ratios = ratiosOf(now, figuresOf(before));
-  const auto intervals = bootstrap([&](size_t draw) {
-    return ratiosOf(figuresOf(resampled(recordings, draw)), figuresOf(resampled(before, draw)));
-  });
+  const SessionCount now = sumOf(recordings);
+  const std::vector<double> ratios = ratiosOf(now, sumOf(before));
+  const auto intervals = bootstrap(
+      [&](size_t draw) { return ratiosOf(sumOf(resampled(recordings, draw)), sumOf(resampled(before, draw))); });
   const char* const names[] = {"unjustified alarms per minute, ratio", "precision, difference",
                                "warned 0.5 s ahead, difference", "warned 1.0 s ahead, difference"};
   std::string text = "compared with the other run:\n";
@@ -172,8 +171,7 @@ std::string sessionsComparison(const std::vector<RecordingSessions>& recordings,
     text += fmt::format("  {:<38} {:6.3f}  [{:.3f}, {:.3f}]\n", names[i], ratios[i], intervals[i].lower,
                         intervals[i].upper);
   }
-  return text + fmt::format("  {:<38} {} (before: {})\n", "contacts without REFLEX", now.count.late,
-                            figuresOf(before).count.late);
+  return text + fmt::format("  {:<38} {} (before: {})\n", "contacts without REFLEX", now.late, sumOf(before).late);
 }
 
 }  // namespace sweep_guard_evaluation

@@ -9,22 +9,21 @@ std::string describe(const AllowedPair& pair) {
   return link + " with " + (pair.mesh_id == AllowedPair::kAny ? "any workpiece" : "'" + pair.mesh_id + "'");
 }
 
-AllowedMatches::AllowedMatches(const AllowedPairs& pairs) {
-  for (const AllowedPair& pair : pairs) matches_.push_back({pair, pair.mesh_id == AllowedPair::kAny});
+AllowedMatches::AllowedMatches(const AllowedPairs& pairs) : pairs_(pairs) {
+  for (const AllowedPair& pair : pairs) matched_.push_back(pair.mesh_id == AllowedPair::kAny);
 }
 
 void AllowedMatches::follow(const Workpieces& newest) {
   const Lock lock(mutex_);
-  for (Match& match : matches_) {
-    match.has_matched = match.has_matched || std::any_of(newest.begin(), newest.end(), [&](const auto& workpiece) {
-                          return match.pair.concerns(workpiece->id);
-                        });
+  for (size_t i = 0; i < pairs_.size(); ++i) {
+    const auto concerned = [&](const auto& workpiece) { return pairs_[i].concerns(workpiece->id); };
+    matched_[i] = matched_[i] || std::any_of(newest.begin(), newest.end(), concerned);
   }
 }
 
-std::vector<AllowedMatches::Match> AllowedMatches::matches() const {
+std::vector<bool> AllowedMatches::matched() const {
   const Lock lock(mutex_);
-  return matches_;
+  return matched_;
 }
 
 }  // namespace sweep_guard_core

@@ -32,14 +32,6 @@ double highest(const Eigen::Vector3d& direction, const Corners& p, const Eigen::
 
 constexpr double kLeft = 0.01;  // [m]
 
-struct Box {
-  Eigen::AlignedBox3d box;
-
-  Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction) const {
-    return (direction.array() < 0.0).select(box.min(), box.max());
-  }
-};
-
 Eigen::AlignedBox3d boxAroundIntended(const Workpiece& workpiece, const std::string& link,
                                       const Intentions& intentions) {
   Eigen::AlignedBox3d box;
@@ -56,7 +48,11 @@ Eigen::AlignedBox3d boxAroundIntended(const Workpiece& workpiece, const std::str
 bool isAway(const ConvexPiece& piece, const Eigen::Isometry3d& X_MT, const Eigen::AlignedBox3d& box_M) {
   const Eigen::Vector3d base_M = box_M.center();
   const PlacedCore tool{piece.shape_T, X_MT.linear(), X_MT.translation() - base_M};
-  return distanceExceeds(tool, Box{{box_M.min() - base_M, box_M.max() - base_M}}, kLeft + piece.shape_T.padding());
+  const Eigen::AlignedBox3d box(box_M.min() - base_M, box_M.max() - base_M);
+  const auto corner = [&](const Eigen::Vector3d& direction) -> Eigen::Vector3d {
+    return (direction.array() < 0.0).select(box.min(), box.max());
+  };
+  return distanceExceeds(tool, corner, kLeft + piece.shape_T.padding());
 }
 
 bool hasLeft(const std::string& link, const Workpiece& workpiece, const PoseWithFrames& pose,
@@ -137,24 +133,24 @@ double IntendedTriangles::reachBehind(const Eigen::Vector3d& normal) {
 void IntendedTouches::update(const SweepReport& report, const PoseWithFrames& pose, const Eigen::Isometry3d& X_WB,
                              const Tool& body, const Intentions& intentions) {
   if (intentions.empty()) return clear();
-  const auto is_over = [&](const TouchedLink& touch) {
-    const auto same = [&](const SweptObject& object) { return object.workpiece->id == touch.mesh_id; };
+  for (auto& [id, links] : links_) {
+    const auto same = [&, &id = id](const SweptObject& object) { return object.workpiece->id == id; };
     const auto object = std::find_if(report.objects.begin(), report.objects.end(), same);
-    return object == report.objects.end() || hasLeft(touch.link, *object->workpiece, pose, X_WB, body, intentions);
-  };
-  touches_.erase(std::remove_if(touches_.begin(), touches_.end(), is_over), touches_.end());
-  for (const SweptObject& object : report.objects) {
-    for (const TriangleContact& contact : object.result.in_contact) {
-      const TouchedLink touch{object.workpiece->id, body.pieces()[contact.piece].link};
-      const bool is_new = contact.intended && std::find(touches_.begin(), touches_.end(), touch) == touches_.end();
-      if (is_new) touches_.push_back(touch);
+    for (auto link = links.begin(); link != links.end();) {
+      const bool is_over =
+          object == report.objects.end() || hasLeft(*link, *object->workpiece, pose, X_WB, body, intentions);
+      link = is_over ? links.erase(link) : std::next(link);
     }
+  }
+  for (const SweptObject& object : report.objects) {
+    for (const TriangleContact& contact : object.result.in_contact)
+      if (contact.intended) links_[object.workpiece->id].insert(body.pieces()[contact.piece].link);
   }
 }
 
 bool IntendedTouches::contains(const std::string& mesh_id, const std::string& link) const {
-  return std::any_of(touches_.begin(), touches_.end(),
-                     [&](const TouchedLink& touch) { return touch.mesh_id == mesh_id && touch.link == link; });
+  const auto links = links_.find(mesh_id);
+  return links != links_.end() && links->second.count(link) != 0;
 }
 
 }  // namespace sweep_guard_core

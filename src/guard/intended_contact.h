@@ -2,7 +2,9 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -66,18 +68,12 @@ class IntendedTouches {
   /// @param pose, X_WB  where its sweep ended
   void update(const SweepReport& report, const PoseWithFrames& pose, const Eigen::Isometry3d& X_WB, const Tool& body,
               const Intentions& intentions);
-  void clear() { touches_.clear(); }
+  void clear() { links_.clear(); }
 
   bool contains(const std::string& mesh_id, const std::string& link) const;
 
  private:
-  struct TouchedLink {
-    std::string mesh_id;
-    std::string link;
-    bool operator==(const TouchedLink& other) const { return mesh_id == other.mesh_id && link == other.link; }
-  };
-
-  std::vector<TouchedLink> touches_;
+  std::map<std::string, std::set<std::string>> links_;  // that have touched, by id of the workpiece
 };
 
 }  // namespace sweep_guard_core

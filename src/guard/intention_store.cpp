@@ -17,19 +17,19 @@ const Workpiece& workpieceOf(const std::string& id, const Workpieces& workpieces
   return **found;
 }
 
-bool isWithin(const IntentionRequest::Ball& ball, const Triangle& triangle, const TriangleMesh& mesh_M) {
+bool isWithin(const Eigen::Vector3d& center_M, double radius, const Triangle& triangle, const TriangleMesh& mesh_M) {
   return std::all_of(triangle.begin(), triangle.end(), [&](std::uint32_t corner) {
-    return (mesh_M.vertex(corner) - ball.center_M).norm() + mesh_M.rounding() <= ball.radius;
+    return (mesh_M.vertex(corner) - center_M).norm() + mesh_M.rounding() <= radius;
   });
 }
 
-TriangleSet trianglesWithin(const IntentionRequest::Ball& ball, const Workpiece& workpiece) {
-  if (!(ball.radius > 0.0) || !(ball.radius <= kMaxCoordinate)) throw InvalidInput("radius must be above 0");
-  if (!ball.center_M.allFinite()) throw InvalidInput("center of the ball is not finite");
+TriangleSet trianglesWithin(const Eigen::Vector3d& center_M, double radius, const Workpiece& workpiece) {
+  if (!(radius > 0.0) || !(radius <= kMaxCoordinate)) throw InvalidInput("radius must be above 0");
+  if (!center_M.allFinite()) throw InvalidInput("center of the ball is not finite");
   const std::vector<Triangle>& triangles = workpiece.mesh_M.triangles();
   TriangleSet within;
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-    if (isWithin(ball, triangles[i], workpiece.mesh_M)) within.push_back(i);
+    if (isWithin(center_M, radius, triangles[i], workpiece.mesh_M)) within.push_back(i);
   }
   if (within.empty()) throw InvalidInput("no triangle of '" + workpiece.id + "' lies wholly in the ball");
   return within;
@@ -42,7 +42,7 @@ TriangleSet regionOf(const IntentionRequest& request, const Workpiece& workpiece
   if (!region.empty() && region.back() >= workpiece.mesh_M.triangles().size()) {
     throw InvalidInput("'" + workpiece.id + "' has no triangle " + std::to_string(region.back()));
   }
-  if (request.ball) unite(region, trianglesWithin(*request.ball, workpiece));
+  if (request.radius) unite(region, trianglesWithin(request.center_M, *request.radius, workpiece));
   return region;
 }
 

@@ -12,20 +12,16 @@ namespace sweep_guard_core {
 
 /// Asks that links of the tool may touch a region of a workpiece.
 struct IntentionRequest {
-  /// Means the triangles that lie wholly inside.
-  struct Ball {
-    Eigen::Vector3d center_M;  ///< [m]
-    double radius;             ///< [m], > 0
-  };
-
   std::string mesh_id;
   std::vector<std::uint32_t> triangles = {};  ///< in any order
-  std::optional<Ball> ball = std::nullopt;    ///< its triangles are added
-  double depth = 0.0;                         ///< as Intention::depth
-  std::vector<std::string> tool_links = {};   ///< empty: all
-  Duration duration{};                        ///< 0: until taken back
+  /// Radius of a ball, whose triangles are added: those that lie wholly inside [m], > 0. Empty: there is no ball.
+  std::optional<double> radius = {};
+  Eigen::Vector3d center_M = Eigen::Vector3d::Zero();  ///< of the ball [m]
+  double depth = 0.0;                                  ///< as Intention::depth
+  std::vector<std::string> tool_links = {};            ///< empty: all
+  Duration duration{};                                 ///< 0: until taken back
 
-  bool takesBack() const { return triangles.empty() && !ball; }  ///< what is intended with this mesh ends
+  bool takesBack() const { return triangles.empty() && !radius; }  ///< what is intended with this mesh ends
 };
 
 /// Keeps where contact is meant. Any thread.

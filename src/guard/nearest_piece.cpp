@@ -22,11 +22,6 @@ const PieceApproach& nearer(const PieceApproach& one, const PieceApproach& other
   return other.deviations < one.deviations ? other : one;
 }
 
-void NearestPiece::clear() {
-  approach = {};
-  unseparated.clear();
-}
-
 PieceBounds::PieceBounds(const Tool& tool, const UncertainStep& step, const ClusterBoxes& boxes,
                          std::vector<std::optional<double>>& buffer)
     : tool_(&tool), step_(&step), boxes_(&boxes), least_(&buffer) {
@@ -94,14 +89,15 @@ struct NearestPieceFinder::Search {
     return finder.meter_.isNear(submesh, body.volume_M, deviations, &intended);
   }
 
-  void measure(size_t piece, const SweptBody& body, const PerHalfSpace& deviations, NearestPiece& nearest) {
+  void measure(size_t piece, const SweptBody& body, const PerHalfSpace& deviations, PieceApproach& nearest,
+               std::vector<UnseparatedPiece>& unseparated) {
     IntendedTriangles intended = on_path.intendedFor(piece, motion_M);
     const auto clearance = finder.meter_.measure(submesh, body.volume_M, deviations, &intended, std::max(0.0, at_most));
     if (!clearance) return;
     const PieceApproach approach{clearance->deviations, piece};
-    if (!clearance->separated) nearest.unseparated.push_back({body, approach});
-    if (!on_path.hasTouched(piece)) nearest.approach = nearer(nearest.approach, approach);
-    at_most = std::min(at_most, nearest.approach.deviations);
+    if (!clearance->separated) unseparated.push_back({body, approach});
+    if (!on_path.hasTouched(piece)) nearest = nearer(nearest, approach);
+    at_most = std::min(at_most, nearest.deviations);
   }
 
   // Calls a function with each piece that is not left out, its body and deviations, first the one that may come nearer, until
@@ -142,25 +138,29 @@ bool NearestPieceFinder::any(const WorkpieceOnPath& on_path, const Submesh& subm
   return false;
 }
 
-void NearestPieceFinder::find(const WorkpieceOnPath& on_path, const Submesh& submesh, const SweptSegment& swept,
-                              const PieceBounds& bounds, double at_most, NearestPiece& nearest) {
-  nearest.clear();
-  if (submesh.empty()) return;
+PieceApproach NearestPieceFinder::find(const WorkpieceOnPath& on_path, const Submesh& submesh,
+                                       const SweptSegment& swept, const PieceBounds& bounds, double at_most,
+                                       std::vector<UnseparatedPiece>& unseparated) {
+  PieceApproach nearest;
+  unseparated.clear();
+  if (submesh.empty()) return nearest;
   const InStage stage(Stage::kProbability);
   const std::optional<size_t>& only_piece = on_path.tool.tree()[0].piece;
   for (size_t i = 0; i < swept.bodies.size(); ++i) {
     const SweptBody& body = swept.bodies[i];
-    const double limit = std::min(at_most, nearest.approach.deviations);
+    const double limit = std::min(at_most, nearest.deviations);
     Search search{*this, on_path, submesh, bounds, body.motion_M, swept.end_M, limit};
     if (only_piece) {
-      if (!on_path.contact.allows(*only_piece)) search.measure(*only_piece, body, swept.deviations[i], nearest);
+      if (on_path.contact.allows(*only_piece)) continue;
+      search.measure(*only_piece, body, swept.deviations[i], nearest, unseparated);
     } else if (meter_.mayBeNear(submesh, body.volume_M, swept.deviations[i])) {
       search.anyPiece([&](size_t piece, const SweptBody& swept_piece, const PerHalfSpace& deviations) {
-        search.measure(piece, swept_piece, deviations, nearest);
+        search.measure(piece, swept_piece, deviations, nearest, unseparated);
         return false;
       });
     }
   }
+  return nearest;
 }
 
 double NearestPieceFinder::limit(double at_most) const { return std::max(0.0, std::min(at_most, max_deviations_)); }

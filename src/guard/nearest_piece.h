@@ -42,13 +42,6 @@ struct UnseparatedPiece {
   PieceApproach approach;
 };
 
-struct NearestPiece {
-  PieceApproach approach;
-  std::vector<UnseparatedPiece> unseparated;
-
-  void clear();  ///< keeps the buffer
-};
-
 /// Lower bounds on the deviations of the pieces below each node of a tool's tree, during one segment, before there are
 /// volumes of the pieces. A piece that comes no nearer than in an earlier sweep need not be swept at all.
 class PieceBounds {
@@ -89,9 +82,9 @@ class NearestPieceFinder {
 
   /// @param swept    with its deviations
   /// @param at_most  approaches at more standard deviations are not looked for
-  /// @param[out] nearest  overwritten; its buffer is used again
-  void find(const WorkpieceOnPath& on_path, const Submesh& submesh, const SweptSegment& swept,
-            const PieceBounds& bounds, double at_most, NearestPiece& nearest);
+  /// @param[out] unseparated  overwritten; its buffer is used again
+  PieceApproach find(const WorkpieceOnPath& on_path, const Submesh& submesh, const SweptSegment& swept,
+                     const PieceBounds& bounds, double at_most, std::vector<UnseparatedPiece>& unseparated);
 
   /// Returns the largest number of deviations that counts under a limit.
   double limit(double at_most) const;

@@ -141,19 +141,20 @@ void PathChecker::testSegment(Detector& detector, const Waiting& waiting) {
     test.object.volumes_tested += volumes;
     return halve(waiting, submesh);
   }
-  nearest_.clear();
-  if (near) nearest_finder_.find(on_path, submesh, swept, bounds, at_most, nearest_);
-  const bool none = !nearest_.approach.piece && nearest_.unseparated.empty();
+  PieceApproach nearest;
+  unseparated_.clear();
+  if (near) nearest = nearest_finder_.find(on_path, submesh, swept, bounds, at_most, unseparated_);
+  const bool none = !nearest.piece && unseparated_.empty();
   const bool in_time = none || test.inTimeFor(segment);
   if (in_time) {
     test.object.volumes_tested += volumes;
-    contact_finder_.detect(detector, on_path, submesh, nearest_.unseparated, {test.object.reflex, *test.triangles},
-                           segment.to <= test.reflex_end, contacts_);
+    contact_finder_.detect(detector, on_path, submesh, unseparated_, test.object, segment.to <= test.reflex_end,
+                           contacts_);
   } else {
-    contact_finder_.assume(on_path, submesh, nearest_.unseparated, contacts_);
+    contact_finder_.assume(on_path, submesh, unseparated_, contacts_);
   }
   if (contacts_.meets && !test.contact && in_time && length > finest_) return halve(waiting, submesh);
-  report(segment, nearest_, contacts_);
+  report(segment, nearest, contacts_);
 }
 
 void PathChecker::halve(const Waiting& waiting, const Submesh& submesh) {
@@ -161,12 +162,12 @@ void PathChecker::halve(const Waiting& waiting, const Submesh& submesh) {
   for (const size_t half : {second, first}) halves_.push_back({half, submesh, waiting.halvings + 1});
 }
 
-void PathChecker::report(const PathSegment& segment, const NearestPiece& nearest, const SegmentContacts& contacts) {
+void PathChecker::report(const PathSegment& segment, const PieceApproach& nearest, const SegmentContacts& contacts) {
   Test& test = *test_;
   const bool only_volume = contacts.meets && contacts.only_volume;
-  const double least = std::min(nearest.approach.deviations, contacts.nearest.deviations);
+  const double least = std::min(nearest.deviations, contacts.nearest.deviations);
   const double deviations = only_volume ? std::max(0.0, least) : least;
-  const auto piece = contacts.meets ? contacts.nearest.piece : nearest.approach.piece;
+  const auto piece = contacts.meets ? contacts.nearest.piece : nearest.piece;
   test.object.sweeps.push_back({segment.from, contacts.meets, deviations, piece});
   test.closest.add(segment.from, deviations);
   test.contact = test.contact || contacts.meets;

@@ -87,7 +87,7 @@ class PathChecker {
   Waiting nextSegment();
   void testSegment(Detector& detector, const Waiting& waiting);
   void halve(const Waiting& waiting, const Submesh& submesh);
-  void report(const PathSegment& segment, const NearestPiece& nearest, const SegmentContacts& contacts);
+  void report(const PathSegment& segment, const PieceApproach& nearest, const SegmentContacts& contacts);
 
   SweepOptions options_;
   Duration finest_;
@@ -102,7 +102,7 @@ class PathChecker {
   std::deque<SubmeshFinder> finders_;  // of the whole path, of its sweeps, of their halves, ...
   ClusterBoxes boxes_;                 // of what the path may reach
   std::vector<std::optional<double>> bounds_;
-  NearestPiece nearest_;
+  std::vector<UnseparatedPiece> unseparated_;
   SegmentContacts contacts_;
 };
 

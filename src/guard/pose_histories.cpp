@@ -36,10 +36,11 @@ bool PoseHistories::isPlaced(const std::string& frame, const PoseWithFrames& pos
   return (frames.count(frame) != 0 || pose.X_WM.count(frame) != 0) && histories_.count(frame) != 0;
 }
 
-void PoseHistories::findJumps(std::uint64_t after, const SpeedLimits& limits, std::vector<FrameJump>& jumps) const {
+void PoseHistories::findJumps(std::uint64_t after, const SpeedLimits& limits,
+                              std::map<std::string, JumpSpeed>& jumps) const {
   jumps.clear();
   for (const auto& [frame, history] : histories_) {
-    if (const auto speed = jumpAfter(after, history, limits)) jumps.push_back({frame, *speed});
+    if (const auto speed = jumpAfter(after, history, limits)) jumps.emplace(frame, *speed);
   }
 }
 

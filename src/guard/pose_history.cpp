@@ -137,13 +137,13 @@ bool JoinedMotion::begin(const FrameMotion& frame, std::vector<PoseSample>& samp
 }
 
 PoseSample JoinedMotion::at(Time time, const FramePose& next) const {
-  const Pose& from = body_[0];
-  const Pose& to = body_[std::min<size_t>(1, body_.size() - 1)];
+  const PoseSample& from = body_[0];
+  const PoseSample& to = body_[std::min<size_t>(1, body_.size() - 1)];
   return {0,
           time,
-          between(from.stamp, from.body.X_WB, to.stamp, to.body.X_WB, to.anew, time),
+          between(from.stamp, from.X_WT, to.stamp, to.X_WT, to.anew, time),
           between(frame_->stamp, frame_->X_WM, next.stamp, next.X_WM, next.anew, time),
-          to.body.deviation_bound + next.deviation_bound,
+          to.deviation_bound + next.deviation_bound,
           (to.anew && to.stamp == time) || (next.anew && next.stamp == time),
           next.left_out};
 }

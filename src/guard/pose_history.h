@@ -101,23 +101,19 @@ class JoinedMotion {
   /// Adds the newest pose of the body; stamps do not decrease. Of more than 8192 that wait, it goes straight past the oldest.
   /// @param anew  the body did not move here
   /// @returns false if it goes past one
-  bool add(Time stamp, const BodyPose& body, bool anew = false) { return body_.add({stamp, body, anew}); }
+  bool add(Time stamp, const BodyPose& body, bool anew = false) {
+    return body_.add({0, stamp, body.X_WB, Eigen::Isometry3d::Identity(), body.deviation_bound, anew});
+  }
 
   /// Computes the samples since the last call. The first is at the first time at which both are known.
   /// @param[out] samples  overwritten; deviation bounds are those of body and frame together. Without numbers
   void join(const FrameMotion& frame, std::vector<PoseSample>& samples);
 
  private:
-  struct Pose {
-    Time stamp;
-    BodyPose body;
-    bool anew;
-  };
-
   bool begin(const FrameMotion& frame, std::vector<PoseSample>& samples);
   PoseSample at(Time time, const FramePose& next) const;
 
-  SampleBuffer<Pose> body_;         // once begun, the first is the newest that is not after the last sample
+  SampleBuffer<PoseSample> body_;   // X_WM is not set; once begun, the first is the newest not after the last sample
   std::optional<FramePose> frame_;  // the same of the frame; empty: not begun
 };
 

@@ -26,19 +26,15 @@ void SegmentContacts::clear() {
   only_volume = false;
 }
 
-bool ReportedTriangles::contains(std::uint32_t triangle) const {
-  return among(interval, triangle) || among(reflex, triangle);
-}
-
 void SegmentContactFinder::detect(Detector& detector, const WorkpieceOnPath& on_path, const Submesh& submesh,
-                                  const std::vector<UnseparatedPiece>& pieces, const ReportedTriangles& reported,
+                                  const std::vector<UnseparatedPiece>& pieces, const PredictedObject& so_far,
                                   bool compare_hulls, SegmentContacts& contacts) {
   contacts.clear();
   contacts.only_volume = compare_hulls;
   for (const UnseparatedPiece& piece : pieces) {
     beat();
     detection_ = detector.detect(submesh, piece.body.volume_M);
-    if (keepNewlyMet(on_path, submesh.mesh_M(), piece, reported, contacts.only_volume)) add(piece.approach, contacts);
+    if (keepNewlyMet(on_path, submesh.mesh_M(), piece, so_far, contacts.only_volume)) add(piece.approach, contacts);
     unite(contacts.newly_met, detection_.triangles);
   }
 }
@@ -46,13 +42,13 @@ void SegmentContactFinder::detect(Detector& detector, const WorkpieceOnPath& on_
 // Keeps of the detected triangles those that the piece meets and that are not reported yet. Returns whether it meets any: of
 // those that are reported, one is enough.
 bool SegmentContactFinder::keepNewlyMet(const WorkpieceOnPath& on_path, const TriangleMesh& mesh_M,
-                                        const UnseparatedPiece& piece, const ReportedTriangles& reported,
+                                        const UnseparatedPiece& piece, const PredictedObject& so_far,
                                         bool& only_volume) {
   IntendedTriangles intended = on_path.intendedFor(*piece.approach.piece, piece.body.motion_M);
   const bool is_hull = piece.body.kind == VolumeKind::kHull;
   bool meets = false;
   const auto isNewlyMet = [&](std::uint32_t triangle) {
-    const bool is_reported = reported.contains(triangle);
+    const bool is_reported = among(so_far.considered, triangle) || among(so_far.reflex, triangle);
     if (is_reported && meets && !only_volume) return false;
     beat();
     if (intended.contains(triangle, mesh_M)) return false;

@@ -19,23 +19,16 @@ struct SegmentContacts {
   void clear();  ///< keeps the buffer
 };
 
-/// Triangles that need not be reported again.
-struct ReportedTriangles {
-  const TriangleSet& reflex;
-  const TriangleSet& interval;  ///< of the segment's own interval
-
-  bool contains(std::uint32_t triangle) const;
-};
-
 /// Finds the contacts of the pieces that no plane separates from a mesh in one segment. Keeps its buffers between calls.
 class SegmentContactFinder {
  public:
   /// Hands each piece to the detector. If the volume is `hull`, triangles count that the hull of the piece meets.
+  /// @param so_far         its triangles need not be reported again
   /// @param compare_hulls  also tells whether the hulls of the pieces miss all that their volumes meet
   /// @param[out] contacts  overwritten; its buffer is used again
   /// @throws DeviceError if the detector fails
   void detect(Detector& detector, const WorkpieceOnPath& on_path, const Submesh& submesh,
-              const std::vector<UnseparatedPiece>& pieces, const ReportedTriangles& reported, bool compare_hulls,
+              const std::vector<UnseparatedPiece>& pieces, const PredictedObject& so_far, bool compare_hulls,
               SegmentContacts& contacts);
 
   /// Takes each triangle that no plane of a volume separates from it for met, without the detector: conservative and fast.
@@ -45,7 +38,7 @@ class SegmentContactFinder {
 
  private:
   bool keepNewlyMet(const WorkpieceOnPath& on_path, const TriangleMesh& mesh_M, const UnseparatedPiece& piece,
-                    const ReportedTriangles& reported, bool& only_volume);
+                    const PredictedObject& so_far, bool& only_volume);
 
   ClearanceMeter meter_;
   Detection detection_;

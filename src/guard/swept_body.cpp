@@ -6,34 +6,6 @@
 #include "sweep_guard/geometry/separation.h"
 
 namespace sweep_guard_core {
-namespace {
-
-// The convex hull of a body at both ends of a motion, relative to a nearby origin.
-class HullOfMotion {
- public:
-  HullOfMotion(const ConvexShape& shape_T, const Motion& motion, const Eigen::Vector3d& origin)
-      : shape_T_(shape_T), motion_(motion), origin_(origin) {}
-
-  Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction) const {
-    const Eigen::Vector3d at_start = supportAt(motion_.X_MT_start, direction);
-    const Eigen::Vector3d at_end = supportAt(motion_.X_MT_end, direction);
-    const Eigen::Vector3d& p = direction.dot(at_end - at_start) > 0.0 ? at_end : at_start;
-    return direction.dot(motion_.mesh_translation) > 0.0 ? Eigen::Vector3d(p + motion_.mesh_translation) : p;
-  }
-
- private:
-  Eigen::Vector3d supportAt(const Eigen::Isometry3d& X_MT, const Eigen::Vector3d& direction) const {
-    return X_MT.linear() * shape_T_.supportPoint(X_MT.linear().transpose() * direction) +
-           (X_MT.translation() - origin_);
-  }
-
-  const ConvexShape& shape_T_;
-  const Motion& motion_;
-  Eigen::Vector3d origin_;
-};
-
-}  // namespace
-
 SweptBody sweptBody(const ConvexShape& shape_T, const Motion& motion_M, VolumeKind kind, double margin) {
   return {&shape_T, motion_M, kind, sweptVolume(shape_T, motion_M, kind, margin)};
 }
@@ -41,7 +13,16 @@ SweptBody sweptBody(const ConvexShape& shape_T, const Motion& motion_M, VolumeKi
 bool missedByHull(const ConvexShape& shape_T, const Motion& motion_M, const MovingTriangle& triangle, double margin,
                   const Eigen::Vector3d& guess_M) {
   const Eigen::Vector3d& origin = triangle.end_M[0];
-  const HullOfMotion hull(shape_T, motion_M, origin);
+  const auto supportAt = [&](const Eigen::Isometry3d& X_MT, const Eigen::Vector3d& direction) -> Eigen::Vector3d {
+    return X_MT.linear() * shape_T.supportPoint(X_MT.linear().transpose() * direction) + (X_MT.translation() - origin);
+  };
+  // The convex hull of the body at both ends of the motion, relative to the origin.
+  const auto hull = [&](const Eigen::Vector3d& direction) -> Eigen::Vector3d {
+    const Eigen::Vector3d at_start = supportAt(motion_M.X_MT_start, direction);
+    const Eigen::Vector3d at_end = supportAt(motion_M.X_MT_end, direction);
+    const Eigen::Vector3d& p = direction.dot(at_end - at_start) > 0.0 ? at_end : at_start;
+    return direction.dot(motion_M.mesh_translation) > 0.0 ? Eigen::Vector3d(p + motion_M.mesh_translation) : p;
+  };
   PointHull prism;
   for (const Eigen::Vector3d& p : triangle.end_M) prism.add(p - origin);
   if (triangle.start_M != triangle.end_M) {

@@ -25,13 +25,6 @@ void unite(std::vector<SweepFailure>& all, const std::vector<SweepFailure>& body
   }
 }
 
-void unite(std::vector<FrameJump>& all, const std::vector<FrameJump>& body) {
-  for (const FrameJump& jump : body) {
-    const auto same = [&](const FrameJump& known) { return known.frame == jump.frame; };
-    if (std::none_of(all.begin(), all.end(), same)) all.push_back(jump);
-  }
-}
-
 // Makes the interval begin at an earlier stamp.
 void beginAt(Time start, Time end, SweptObject& object) {
   const double length = toSeconds(end - start);
@@ -129,7 +122,7 @@ void unite(SweepReport& all, SweepReport& body, size_t first_piece) {
   all.backlog = std::max(all.backlog, body.backlog);
   unite(all.failures, body.failures);
   all.passed_over.insert(body.passed_over.begin(), body.passed_over.end());
-  unite(all.jumps, body.jumps);
+  all.jumps.insert(body.jumps.begin(), body.jumps.end());
   for (const auto objects : {&SweepReport::objects, &SweepReport::replaced})
     uniteEach(all.*objects, body.*objects, first_piece,
               [&](SweptObject& known, SweptObject& object) { unite(known, object, all.end); });

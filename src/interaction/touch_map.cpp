@@ -19,9 +19,7 @@ void assignTriangles(const std::vector<TriangleContact>& contacts, TriangleSet& 
 
 // A joint may have jumped in parts, the first of which are no jump of a body.
 bool jumps(const SweepReport& report, const std::string& frame) {
-  if (report.jumps.empty()) return !report.jump.empty();
-  const auto same = [&](const FrameJump& jump) { return jump.frame == frame; };
-  return std::any_of(report.jumps.begin(), report.jumps.end(), same);
+  return report.jumps.empty() ? !report.jump.empty() : report.jumps.count(frame) != 0;
 }
 
 bool isOfTheSameTriangles(const Workpiece& a, const Workpiece& b) {

@@ -39,9 +39,9 @@ void WarningMonitor::noteJump(const SweepReport& report, SteadyTime now) {
   if (!report.jump.empty()) {
     inputs_.jump = WarningInputs::Event{report.jump, now};
   } else if (!report.jumps.empty()) {
-    const auto slower = [](const FrameJump& a, const FrameJump& b) { return a.speed.speed < b.speed.speed; };
-    const FrameJump& jump = *std::max_element(report.jumps.begin(), report.jumps.end(), slower);
-    inputs_.jump = WarningInputs::Event{"the tool jumped against '" + jump.frame + "': " + inWords(jump.speed), now};
+    const auto slower = [](const auto& a, const auto& b) { return a.second.speed < b.second.speed; };
+    const auto& [frame, speed] = *std::max_element(report.jumps.begin(), report.jumps.end(), slower);
+    inputs_.jump = WarningInputs::Event{"the tool jumped against '" + frame + "': " + inWords(speed), now};
   }
 }
 

@@ -13,19 +13,19 @@ namespace {
 using sweep_guard_core::Duration;
 using sweep_guard_core::PredictionInterval;
 
-std::vector<Forecast> times(size_t count, double probability, size_t met) {
-  std::vector<Forecast> forecasts(count, {probability, false});
+std::vector<PredictionOutcome> times(size_t count, double probability, size_t met) {
+  std::vector<PredictionOutcome> forecasts(count, {0.0, false, probability});
   for (size_t i = 0; i < met; ++i) forecasts[i].met = true;
   return forecasts;
 }
 
-std::vector<Forecast> joined(std::vector<Forecast> a, const std::vector<Forecast>& b) {
+std::vector<PredictionOutcome> joined(std::vector<PredictionOutcome> a, const std::vector<PredictionOutcome>& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
 }
 
 TEST(CalibrationTest, HonestForecastsHaveNoError) {
-  std::vector<Forecast> forecasts;
+  std::vector<PredictionOutcome> forecasts;
   for (int bin = 0; bin < 5; ++bin) forecasts = joined(forecasts, times(100, 0.1 + 1e-12 * bin, 10));
   for (int bin = 0; bin < 5; ++bin) forecasts = joined(forecasts, times(100, 0.5 + 1e-12 * bin, 50));
   const Calibration honest = calibrationOf(forecasts);
@@ -38,7 +38,7 @@ TEST(CalibrationTest, HonestForecastsHaveNoError) {
 
 // Each bin of 100 has its own frequency: the first half 0.02 instead of 0.1, the other 0.4 instead of 0.5.
 TEST(CalibrationTest, TheErrorIsTheMeanDifferenceOverTheBins) {
-  std::vector<Forecast> forecasts;
+  std::vector<PredictionOutcome> forecasts;
   for (int bin = 0; bin < 5; ++bin) forecasts = joined(forecasts, times(100, 0.1 + 1e-6 * bin, 2));
   for (int bin = 0; bin < 5; ++bin) forecasts = joined(forecasts, times(100, 0.5 + 1e-6 * bin, 40));
   const Calibration calibration = calibrationOf(forecasts);

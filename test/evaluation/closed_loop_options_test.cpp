@@ -17,9 +17,9 @@ ClosedLoopOptions parsedClosedLoop(std::vector<const char*> words) {
 TEST(ClosedLoopOptionsTest, HasDefaultsThatHelpPrints) {
   const ClosedLoopOptions options = parsedClosedLoop({"hand.txt"});
   EXPECT_EQ(options.files, std::vector<std::string>{"hand.txt"});
-  EXPECT_EQ(options.setup.placements, 120U);
-  EXPECT_EQ(options.setup.robot.lag, milliseconds(30));
-  EXPECT_EQ(options.setup.robot.max_speed, RobotOptions{}.max_speed);
+  EXPECT_EQ(options.placements, 120U);
+  EXPECT_EQ(options.robot.lag, milliseconds(30));
+  EXPECT_EQ(options.robot.max_speed, RobotOptions{}.max_speed);
   EXPECT_NE(closedLoopUsage().find("--plane-delay S (=0.02)"), std::string::npos) << closedLoopUsage();
 }
 
@@ -27,12 +27,12 @@ TEST(ClosedLoopOptionsTest, TakesRobotGuardAndPlacements) {
   const ClosedLoopOptions options =
       parsedClosedLoop({"--placements", "7", "--seed", "2", "--dead-time", "0.05", "--lag", "0", "--standoff", "0.01",
                         "--reach", "0.5", "--csv", "x.csv", "a", "b"});
-  EXPECT_EQ(options.setup.placements, 7U);
-  EXPECT_EQ(options.setup.seed, 2U);
-  EXPECT_EQ(options.setup.robot.dead_time, milliseconds(50));
-  EXPECT_EQ(options.setup.robot.lag, milliseconds(0));
-  EXPECT_EQ(options.setup.guard.motion.standoff, 0.01);
-  EXPECT_EQ(options.setup.guard.reach, 0.5);
+  EXPECT_EQ(options.placements, 7U);
+  EXPECT_EQ(options.seed, 2U);
+  EXPECT_EQ(options.robot.dead_time, milliseconds(50));
+  EXPECT_EQ(options.robot.lag, milliseconds(0));
+  EXPECT_EQ(options.guard.motion.standoff, 0.01);
+  EXPECT_EQ(options.guard.reach, 0.5);
   EXPECT_EQ(options.files.size(), 2U);
 }
 

@@ -83,7 +83,7 @@ TEST(ClosedLoopReportTest, SumsTheRecordingsButNotTheKinds) {
 }
 
 TEST(ClosedLoopReportTest, CountsARecordingTheSameEveryTime) {
-  ClosedLoopSetup setup;
+  ClosedLoopOptions setup;
   setup.random_retreats = 1;
   setup.placements = 6;
   size_t left_out = 0;

@@ -97,7 +97,7 @@ class ClosedLoopEpisodeTest : public testing::Test {
     }
   }
 
-  ClosedLoopSetup setup_;
+  ClosedLoopOptions setup_;
   DrivenRobot driven_;
   std::vector<ObstaclePlacement> placed_;
   std::vector<ObstaclePlacement> placements_;  // the same from where their episodes begin

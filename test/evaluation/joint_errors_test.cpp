@@ -55,21 +55,21 @@ TEST_F(JointErrorsTest, JointsAtConstantSpeedArePredictedExactlyAndLinksAreNot) 
   ASSERT_EQ(reports.size(), 4U);
   EXPECT_EQ(reports[1].link, "elbow");
   EXPECT_EQ(reports[1].horizon, milliseconds(500));
-  EXPECT_LT(reports[1].by_joints.p90, 1e-9);
+  EXPECT_LT(reports[1].by_joints.distance(0.9), 1e-9);
   const double turn = 1.5 * 0.5;
   const double off = 0.5 * std::hypot(std::cos(turn) - 1.0, std::sin(turn) - turn);
-  EXPECT_NEAR(reports[1].by_pose.median, off, 0.02);  // the fitted velocity is that of a moment ago
+  EXPECT_NEAR(reports[1].by_pose.distance(0.5), off, 0.02);  // the fitted velocity is that of a moment ago
   EXPECT_EQ(reports[3].link, "tip");
-  EXPECT_GT(reports[3].by_pose.median, 1.5 * reports[1].by_pose.median);
-  EXPECT_LT(reports[3].by_joints.width, reports[3].by_pose.width);
-  EXPECT_EQ(reports[0].samples, 150U) << "5 s without 3 s before and half a second after";
+  EXPECT_GT(reports[3].by_pose.distance(0.5), 1.5 * reports[1].by_pose.distance(0.5));
+  EXPECT_LT(reports[3].by_joints.width(), reports[3].by_pose.width());
+  EXPECT_EQ(reports[0].by_joints.samples(), 150U) << "5 s without 3 s before and half a second after";
 }
 
 TEST_F(JointErrorsTest, SamplesHaveNoGapBeforeOrAfterThem) {
   const auto positions = [](double t) { return std::vector<double>{std::sin(t), std::cos(t)}; };
   add(0.0, 5.0, positions);
   add(6.0, 11.0, positions);
-  EXPECT_EQ(compare()[0].samples, 300U);
+  EXPECT_EQ(compare()[0].by_joints.samples(), 300U);
 }
 
 TEST_F(JointErrorsTest, TheCalibratedWidthHoldsNineTenthsOfTheErrors) {
@@ -82,8 +82,8 @@ TEST_F(JointErrorsTest, TheCalibratedWidthHoldsNineTenthsOfTheErrors) {
     return std::vector<double>{sum[0], sum[1]};
   });
   for (const JointErrorReport& report : compare("hold")) {
-    EXPECT_GT(report.by_joints.calibrated_width, 0.3 * report.by_joints.width);
-    EXPECT_LT(report.by_joints.calibrated_width, 3.0 * report.by_joints.width);
+    EXPECT_GT(report.by_joints.calibratedWidth(), 0.3 * report.by_joints.width());
+    EXPECT_LT(report.by_joints.calibratedWidth(), 3.0 * report.by_joints.width());
   }
 }
 

@@ -50,7 +50,7 @@ class SessionCountTest : public testing::Test {
   std::vector<TimeInterval> touches(const SquareObstacle& obstacle) const {
     const TriangleMesh mesh_W = meshOf(obstacle);
     ObstacleMesh object(tool_, mesh_W);
-    return touchesOf(RecordedMotion(poses_), tool_, object);
+    return touchesOf(RecordedMotion(poses_), object);
   }
 
   /// Counts with these levels from these times [ms] on, recorded at every pose.
@@ -63,8 +63,10 @@ class SessionCountTest : public testing::Test {
       trace.add(pose.stamp, level);
     }
     const TriangleMesh mesh_W = meshOf(obstacle);
-    ObstacleMesh object(tool_, mesh_W);
-    return countSession({motion, tool_, object, touchesOf(motion, tool_, object), trace});
+    ObjectSession object{ObstacleMesh(tool_, mesh_W), {}, {}};
+    object.touches = touchesOf(motion, object.mesh);
+    countSession(motion, trace, /*measure_near_misses=*/true, object);
+    return object.count;
   }
 
   std::vector<StampedPose> poses_ = straightMotion(0.1, milliseconds(20), seconds(12));

@@ -16,10 +16,10 @@ TuningPoint point(double on, size_t unjustified) {
   TuningPoint point;
   point.thresholds = {0.1, on, on / 4.0};
   point.figures.minutes = 10.0;
-  point.figures.count.unjustified = unjustified;
-  point.figures.count.alarms = unjustified + unjustified / 2;
-  point.figures.count.contacts = 4;
-  point.figures.count.warned = {4, 4, 3, 1};
+  point.figures.unjustified = unjustified;
+  point.figures.alarms = unjustified + unjustified / 2;
+  point.figures.contacts = 4;
+  point.figures.warned = {4, 4, 3, 1};
   return point;
 }
 
@@ -58,7 +58,8 @@ TEST(SessionTuningTest, PrintsYamlToPasteOrTheFewest) {
 
 TEST(SessionTuningTest, SharesOfNothingAreNoNumbers) {
   TuningPoint nothing = point(0.1, 0);
-  nothing.figures.count = {};
+  nothing.figures = {};
+  nothing.figures.minutes = 10.0;
   EXPECT_FALSE(has(tuningText({nothing}, 5.0), "nan"));
 }
 

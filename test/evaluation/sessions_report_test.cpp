@@ -32,7 +32,7 @@ TEST(SessionsReportTest, RatesAreThoseBesideOneObject) {
 }
 
 TEST(SessionsReportTest, AllRecordingsCountByTheirLengths) {
-  const SessionFigures all = figuresOf({hand(), {"arm", 1.0, {{counted(1, 6, 6)}}}});
+  const SessionCount all = sumOf({hand(), {"arm", 1.0, {{counted(1, 6, 6)}}}});
   EXPECT_EQ(all.minutes, 9.0);
   EXPECT_NEAR(all.unjustifiedPerMinute(), 12.0 / 9.0, 1e-12);
   EXPECT_NEAR(all.precision(), 4.0 / 16.0, 1e-12);
@@ -46,9 +46,8 @@ TEST(SessionsReportTest, TheTableNamesContactsThatReflexMissed) {
 
 TEST(SessionsReportTest, IntervalsHoldTheFigureAndAreAPointForEqualObjects) {
   const auto rate = [](const RecordingSessions& sessions) {
-    return bootstrap([&](size_t draw) {
-      return std::vector<double>{figuresOf(resampled({sessions}, draw)).unjustifiedPerMinute()};
-    })[0];
+    return bootstrap(
+        [&](size_t draw) { return std::vector<double>{sumOf(resampled({sessions}, draw)).unjustifiedPerMinute()}; })[0];
   };
   const Interval different = rate(hand());
   EXPECT_LT(different.lower, 0.75);

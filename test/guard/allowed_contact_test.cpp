@@ -237,15 +237,10 @@ TEST_F(AllowedContactTest, OfOneBodyOfSeveralNamesItsPiece) {
 
 TEST(AllowedMatchesTest, RemembersWhichWorkpiecesHaveBeenThere) {
   AllowedMatches matches({{"finger", "payload"}, {"palm", "pailoud"}, {"palm", "*"}});
-  const auto matched = [&] {
-    std::vector<bool> all;
-    for (const AllowedMatches::Match& match : matches.matches()) all.push_back(match.has_matched);
-    return all;
-  };
-  EXPECT_EQ(matched(), (std::vector<bool>{false, false, true}));
+  EXPECT_EQ(matches.matched(), (std::vector<bool>{false, false, true}));
   matches.follow({workpieceOf("payload", cube(Vector3d::Zero(), 0.03))});
   matches.follow({});
-  EXPECT_EQ(matched(), (std::vector<bool>{true, false, true}));
+  EXPECT_EQ(matches.matched(), (std::vector<bool>{true, false, true}));
 }
 
 TEST(AllowedPairTest, IsDescribedInWords) {

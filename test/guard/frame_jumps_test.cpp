@@ -29,7 +29,7 @@ class FrameJumpsTest : public testing::Test {
 
   std::set<std::string> jumpsTo(const PoseWithFrames& pose) {
     std::set<std::string> frames;
-    for (const FrameJump& jump : reportOf(guard_, pose, workpieces_).jumps) frames.insert(jump.frame);
+    for (const auto& [frame, speed] : reportOf(guard_, pose, workpieces_).jumps) frames.insert(frame);
     return frames;
   }
   std::set<std::string> jumpsTo(double seconds, double tool, double tray) {

@@ -93,9 +93,7 @@ Eigen::Isometry3d pointingDownAt(const Eigen::Vector3d& tip) {
   return X_WT;
 }
 
-IntentionRequest hole(double depth = kDepth) {
-  return {"bone", {}, IntentionRequest::Ball{Eigen::Vector3d::Zero(), kHole}, depth, {"bit"}};
-}
+IntentionRequest hole(double depth = kDepth) { return {"bone", {}, kHole, Eigen::Vector3d::Zero(), depth, {"bit"}}; }
 
 // What was warned of along a path.
 struct Record {

@@ -25,7 +25,7 @@ Workpieces only(const std::string& id, TriangleMesh mesh = fan()) {
 }
 
 IntentionRequest request(std::vector<std::uint32_t> triangles, double depth = 0.01) {
-  return {"bone", std::move(triangles), std::nullopt, depth, {"bit"}};
+  return {"bone", std::move(triangles), std::nullopt, Eigen::Vector3d::Zero(), depth, {"bit"}};
 }
 
 class IntentionStoreTest : public ::testing::Test {
@@ -49,10 +49,11 @@ TEST_F(IntentionStoreTest, KeepsTrianglesInOrderAndEachOnce) {
 
 TEST_F(IntentionStoreTest, ABallMeansTheTrianglesThatLieWhollyInside) {
   IntentionRequest painted = request({});
-  painted.ball = IntentionRequest::Ball{{0.5, 0.5, 0}, 0.75};
+  painted.radius = 0.75;
+  painted.center_M = {0.5, 0.5, 0};
   store_.set({painted}, kNow);
   EXPECT_EQ(store_.at(kNow)->front().triangles, (std::vector<std::uint32_t>{0}));
-  painted.ball->radius = 0.7;
+  painted.radius = 0.7;
   EXPECT_EQ(refusal(painted), "no triangle of 'bone' lies wholly in the ball");
 }
 
@@ -117,9 +118,10 @@ TEST_F(IntentionStoreTest, RefusesWhatIsUnknownOrOutOfRange) {
   wrong.duration = -1s;
   EXPECT_EQ(refusal(wrong), "duration must be from 0 to 24 h");
   wrong = request({});
-  wrong.ball = IntentionRequest::Ball{{0, 0, 0}, 0.0};
+  wrong.radius = 0.0;
   EXPECT_EQ(refusal(wrong), "radius must be above 0");
-  wrong.ball = IntentionRequest::Ball{{std::numeric_limits<double>::quiet_NaN(), 0, 0}, 1.0};
+  wrong.radius = 1.0;
+  wrong.center_M.x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(refusal(wrong), "center of the ball is not finite");
   EXPECT_EQ(count(), 0U);
 }

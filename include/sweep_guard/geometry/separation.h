@@ -5,20 +5,25 @@
 #include <boost/container/static_vector.hpp>
 #include <cassert>
 #include <cstddef>
+#include <type_traits>
 
 namespace sweep_guard_core {
 
 /// Bounds the rounding of the distance of two convex bodies [-], relative to their sizes and the distance between them.
 inline constexpr double kDistanceRounding = 1e-9;
 
-/// Views any object with a supportPoint() as a convex body: supportPoint() returns the point of the body [m] that lies
+/// Views any object with a supportPoint(), or a function, as a convex body: either returns the point of the body [m] that lies
 /// farthest along a unit direction. The object must outlive the view.
 class SupportMapping {
  public:
   template <typename Body>
   SupportMapping(const Body& body)  // NOLINT: converts implicitly
       : body_(&body), call_([](const void* viewed, const Eigen::Vector3d& direction) -> Eigen::Vector3d {
-          return static_cast<const Body*>(viewed)->supportPoint(direction);
+          const Body& of = *static_cast<const Body*>(viewed);
+          if constexpr (std::is_invocable_v<const Body&, const Eigen::Vector3d&>)
+            return of(direction);
+          else
+            return of.supportPoint(direction);
         }) {}
 
   Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction) const { return call_(body_, direction); }

@@ -28,20 +28,17 @@ std::string describe(const AllowedPair& pair);
 /// Remembers which allowed pairs have ever had a workpiece: an id that never comes may be misspelled. Any thread.
 class AllowedMatches {
  public:
-  struct Match {
-    AllowedPair pair;
-    bool has_matched;  ///< a workpiece of the pair was there, or any will do
-  };
-
   explicit AllowedMatches(const AllowedPairs& pairs);
 
   void follow(const Workpieces& newest);  ///< takes the workpieces that are there
 
-  std::vector<Match> matches() const;  ///< in the order of the pairs
+  const AllowedPairs& pairs() const { return pairs_; }
+  std::vector<bool> matched() const;  ///< of each pair: a workpiece of it was there, or any will do
 
  private:
+  const AllowedPairs pairs_;
   mutable Mutex mutex_;
-  std::vector<Match> matches_ SWEEP_GUARD_GUARDED_BY(mutex_);
+  std::vector<bool> matched_ SWEEP_GUARD_GUARDED_BY(mutex_);
 };
 
 }  // namespace sweep_guard_core

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -119,12 +120,6 @@ struct SweptObject {
   SweepResult result;
 };
 
-/// Motion of the tool, seen from a frame of workpieces, that is too fast to be believed. It is swept all the same.
-struct FrameJump {
-  std::string frame;
-  JumpSpeed speed;
-};
-
 /// Reports one step of the guard: the sweeps up to one pose.
 struct SweepReport {
   Time start;  ///< earliest `interval_start` of `objects`; `end` at the first pose and if there are none
@@ -139,8 +134,8 @@ struct SweepReport {
   /// Workpieces that have other triangles since they were last swept, with the triangles from before: the tool may have met these
   /// on the way to the pose. As a rule empty.
   std::vector<SweptObject> replaced = {};
-  std::string jump = {};              ///< what jumped on the way, in words (PoseWithFrames::jump); empty: nothing
-  std::vector<FrameJump> jumps = {};  ///< frames against which the tool, or a body of it, jumped on the way: each once
+  std::string jump = {};  ///< what jumped on the way, in words (PoseWithFrames::jump); empty: nothing
+  std::map<std::string, JumpSpeed> jumps = {};  ///< by frame against which the tool, or a body of it, jumped on the way
   /// Frames that come so late that more poses waited for them than are kept: the tool was swept straight past the oldest ones.
   std::set<std::string> passed_over = {};
 

@@ -211,12 +211,13 @@ void Diagnostics::workpieces(Status& status) const {
 }
 
 void Diagnostics::allowed(Status& status) const {
-  const auto matches = state_.allowed.matches();
+  const auto& pairs = state_.allowed.pairs();
+  const std::vector<bool> matched = state_.allowed.matched();
   status.summary(DiagnosticStatus::OK,
-                 matches.empty() ? "none (tool/allowed)" : std::to_string(matches.size()) + " pairs may touch");
-  for (const auto& [pair, has_matched] : matches) {
-    if (!has_matched) status.mergeSummary(DiagnosticStatus::WARN, "no workpiece '" + pair.mesh_id + "' so far");
-    status.add(describe(pair), has_matched ? "may touch" : "no such workpiece so far");
+                 pairs.empty() ? "none (tool/allowed)" : std::to_string(pairs.size()) + " pairs may touch");
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    if (!matched[i]) status.mergeSummary(DiagnosticStatus::WARN, "no workpiece '" + pairs[i].mesh_id + "' so far");
+    status.add(describe(pairs[i]), matched[i] ? "may touch" : "no such workpiece so far");
   }
 }
 

@@ -103,10 +103,14 @@ void IntendService::set(const std::vector<sweep_guard::Intend>& intends) {
 
 sweep_guard_core::IntentionRequest IntendService::requestFrom(const sweep_guard::Intend& intend) const {
   if (!isName(intend.mesh_id)) throw InvalidInput("mesh_id is no name");
-  sweep_guard_core::IntentionRequest request{intend.mesh_id,    intend.triangles,
-                                             std::nullopt,      intend.depth,
-                                             intend.tool_links, std::chrono::nanoseconds(intend.duration.toNSec())};
-  if (intend.radius != 0.0) request.ball = ballOf(intend);
+  sweep_guard_core::IntentionRequest request{intend.mesh_id, intend.triangles};
+  request.depth = intend.depth;
+  request.tool_links = intend.tool_links;
+  request.duration = std::chrono::nanoseconds(intend.duration.toNSec());
+  if (intend.radius != 0.0) {
+    request.radius = intend.radius;
+    request.center_M = centerOf(intend);
+  }
   if (request.takesBack()) return request;
   if (!dependencies_.parameters.get()->guard.sweep.fine) {
     throw InvalidInput("the parameter fine is false: no contact is confirmed, so none can be intended");
@@ -115,15 +119,14 @@ sweep_guard_core::IntentionRequest IntendService::requestFrom(const sweep_guard:
   return request;
 }
 
-sweep_guard_core::IntentionRequest::Ball IntendService::ballOf(const sweep_guard::Intend& intend) const {
+Eigen::Vector3d IntendService::centerOf(const sweep_guard::Intend& intend) const {
   const Eigen::Vector3d center(intend.center.x, intend.center.y, intend.center.z);
   const auto workpieces = dependencies_.workpieces.snapshot();
   const auto same = [&](const auto& workpiece) { return workpiece->id == intend.mesh_id; };
   const auto workpiece = std::find_if(workpieces.begin(), workpieces.end(), same);
-  if (workpiece == workpieces.end() || intend.frame_id.empty()) return {center, intend.radius};
+  if (workpiece == workpieces.end() || intend.frame_id.empty()) return center;
   if (!isName(intend.frame_id)) throw InvalidInput("frame_id has more than 128 or unprintable characters");
-  return {dependencies_.frames.lookup((*workpiece)->frame, intend.frame_id, {}, kTransformWait) * center,
-          intend.radius};
+  return dependencies_.frames.lookup((*workpiece)->frame, intend.frame_id, {}, kTransformWait) * center;
 }
 
 void IntendService::checkLinks(const sweep_guard::Intend& intend) const {

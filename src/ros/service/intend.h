@@ -36,7 +36,7 @@ class IntendService {
   void refuseUpdate(const std::string& reason);
   void set(const std::vector<sweep_guard::Intend>& intends);
   sweep_guard_core::IntentionRequest requestFrom(const sweep_guard::Intend& intend) const;
-  sweep_guard_core::IntentionRequest::Ball ballOf(const sweep_guard::Intend& intend) const;
+  Eigen::Vector3d centerOf(const sweep_guard::Intend& intend) const;
   void checkLinks(const sweep_guard::Intend& intend) const;
   void publish(const std::string& refusal, bool only_if_changed);
 
