@@ -59,7 +59,7 @@ using SmallSet = boost::container::static_vector<std::uint32_t, simd::kClusterBl
 
 // Returns false and changes nothing if the set would be too large.
 template <typename Numbers>
-bool addTo(SmallSet& set, const Numbers& numbers) {
+bool addNumbers(SmallSet& set, const Numbers& numbers) {
   const size_t before = set.size();
   for (const std::uint32_t number : numbers) {
     if (std::find(set.begin(), set.end(), number) != set.end()) continue;
@@ -91,7 +91,7 @@ Cluster clusterFrom(std::uint32_t first, const std::vector<Triangle>& corners) {
   SmallSet blocks;
   std::uint32_t count = 0;
   while (first + count < corners.size() && count < simd::kCluster &&
-         addTo(blocks, divided(corners[first + count], simd::kBlock))) {
+         addNumbers(blocks, divided(corners[first + count], simd::kBlock))) {
     ++count;
   }
   return {0, first, count, filled(blocks)};
@@ -101,7 +101,7 @@ ClusterGroup groupFrom(std::uint32_t first, const std::vector<Cluster>& clusters
   SmallSet block_groups;
   std::uint32_t count = 0;
   while (first + count < clusters.size() && count < kClustersTogether &&
-         addTo(block_groups, divided(clusters[first + count].blocks, kBlocksTogether))) {
+         addNumbers(block_groups, divided(clusters[first + count].blocks, kBlocksTogether))) {
     ++count;
   }
   return {first, count, filled(block_groups)};

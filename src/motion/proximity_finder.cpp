@@ -243,10 +243,10 @@ bool ProximityFinder::Search::processTriangle(const WaitingPart& waiting) {
 // Returns false if it is left over: no plane is free.
 bool ProximityFinder::Search::standFor(const WaitingPart& waiting, const SeparatedTriangle& separated) {
   Facing& facing = facings_[waiting.facing];
-  if (separated.gap <= 0.0 && joinPlane(facing, separated, request_->pose.X_WT, found_->planes)) return true;
+  if (separated.gap <= 0.0 && joinFacingPlane(facing, separated, request_->pose.X_WT, found_->planes)) return true;
   const double distance = std::min((1.0 - kNearer) * separated.gap, leastBound());
   if (distance >= request_->reach || found_->planes.size() == kMaxPlanes) return leaveOver(distance);
-  addPlane(facing, separated, request_->pose.X_WT, found_->planes);
+  addFacingPlane(facing, separated, request_->pose.X_WT, found_->planes);
   return true;
 }
 

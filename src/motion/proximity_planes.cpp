@@ -26,8 +26,8 @@ ProximityPlane* similarPlane(const Facing& facing, const Eigen::Vector3d& n_W, s
 
 }  // namespace
 
-void addPlane(Facing& facing, const SeparatedTriangle& separated, const Eigen::Isometry3d& X_WT,
-              std::vector<ProximityPlane>& planes) {
+void addFacingPlane(Facing& facing, const SeparatedTriangle& separated, const Eigen::Isometry3d& X_WT,
+                    std::vector<ProximityPlane>& planes) {
   const TriangleMesh& mesh_M = facing.mesh();
   const double slack = separated.gap > 0.0 ? std::max(kSlack * separated.gap, kMinSlack * mesh_M.radius()) : 0.0;
   const double step = slack + mesh_M.rounding();
@@ -42,8 +42,8 @@ void addPlane(Facing& facing, const SeparatedTriangle& separated, const Eigen::I
   quicken(planes.back().plane, facing, X_WT, mesh_M.triangles()[separated.triangle]);
 }
 
-bool joinPlane(const Facing& facing, const SeparatedTriangle& separated, const Eigen::Isometry3d& X_WT,
-               std::vector<ProximityPlane>& planes) {
+bool joinFacingPlane(const Facing& facing, const SeparatedTriangle& separated, const Eigen::Isometry3d& X_WT,
+                     std::vector<ProximityPlane>& planes) {
   ProximityPlane* const best = similarPlane(facing, X_WT.linear() * separated.normal_T, planes);
   if (best == nullptr) return false;
   SeparatingPlane& plane = best->plane;

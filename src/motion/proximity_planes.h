@@ -14,12 +14,12 @@ namespace sweep_guard_core {
 
 /// Adds the plane of a triangle. The facing's cover knows it from now on, unless the piece reaches through it: such a
 /// plane separates the piece from nothing, and triangles join it one by one.
-void addPlane(Facing& facing, const SeparatedTriangle& separated, const Eigen::Isometry3d& X_WT,
-              std::vector<ProximityPlane>& planes);
+void addFacingPlane(Facing& facing, const SeparatedTriangle& separated, const Eigen::Isometry3d& X_WT,
+                    std::vector<ProximityPlane>& planes);
 
 /// Lets a triangle in contact join the plane of the most similar normal, within 26 degrees. Returns false without one.
-bool joinPlane(const Facing& facing, const SeparatedTriangle& separated, const Eigen::Isometry3d& X_WT,
-               std::vector<ProximityPlane>& planes);
+bool joinFacingPlane(const Facing& facing, const SeparatedTriangle& separated, const Eigen::Isometry3d& X_WT,
+                     std::vector<ProximityPlane>& planes);
 
 /// Moves a plane to the tool [m].
 inline void moveOn(SeparatingPlane& plane, double step) {
