@@ -45,12 +45,14 @@ bool ClosedParts::anyBoxesMeet() const {
 
 // Of parts that do not cross, one lies in solids and cavities by turns.
 bool ClosedParts::anyCrossOrLieInOthers() const {
-  std::vector<PartTriangle> triangles;
+  std::vector<Triangle> triangles;
+  std::vector<std::uint32_t> parts;
   for (const std::uint32_t part : closed_) {
     const bool turn = shells_[part].isInsideOut() != cavities_[part];
-    for (const Triangle& triangle : triangles_[part]) triangles.push_back({turnedIf(turn, triangle), part});
+    for (const Triangle& triangle : triangles_[part]) triangles.push_back(turnedIf(turn, triangle));
+    parts.resize(triangles.size(), part);
   }
-  if (partsCross(triangles, surface_, least_).value_or(true)) return true;
+  if (partsCross(triangles, parts, surface_, least_).value_or(true)) return true;
   return std::any_of(closed_.begin(), closed_.end(),
                      [&](std::uint32_t inner) { return turnsAround(inner) != (cavities_[inner] ? 1 : 0); });
 }
@@ -124,7 +126,7 @@ Eigen::Vector3d ClosedParts::cornerOf(std::uint32_t part, size_t i) const {
 bool ClosedParts::enclosesPoint(std::uint32_t outer, const Eigen::Vector3d& p) const {
   const auto corner = [&](std::uint32_t vertex) -> Eigen::Vector3d { return surface_.at(vertex) - p; };
   const Triangle* const first = triangles_[outer].data();
-  return View(corner).crossings(first, first + triangles_[outer].size()) != 0;
+  return crossings(corner, first, first + triangles_[outer].size()) != 0;
 }
 
 }  // namespace sweep_guard_core

@@ -40,8 +40,9 @@ bool passesThrough(const Corners& edges, const Corners& face) {
 
 class CrossingSearch {
  public:
-  CrossingSearch(const std::vector<PartTriangle>& triangles, const WeldedSurface& surface, double least)
-      : triangles_(triangles), surface_(surface) {
+  CrossingSearch(const std::vector<Triangle>& triangles, const Numbers& parts, const WeldedSurface& surface,
+                 double least)
+      : triangles_(triangles), parts_(parts), surface_(surface) {
     findShrunk(least);
   }
 
@@ -56,7 +57,7 @@ class CrossingSearch {
 
  private:
   Corners cornersOf(std::uint32_t i) const {
-    const auto& [a, b, c] = triangles_[i].corners;
+    const auto& [a, b, c] = triangles_[i];
     return {surface_.at(a), surface_.at(b), surface_.at(c)};
   }
   // Moves the corners of each part into the solid, against the mean normal of its triangles there.
@@ -65,15 +66,15 @@ class CrossingSearch {
     std::unordered_map<std::uint32_t, Eigen::Vector3f> normals;  // of one part, by vertex
     for (size_t begin = 0, end = 0; begin < triangles_.size(); begin = end) {
       normals.clear();
-      for (; end < triangles_.size() && triangles_[end].part == triangles_[begin].part; ++end) {
+      for (; end < triangles_.size() && parts_[end] == parts_[begin]; ++end) {
         const Corners corners = cornersOf(static_cast<std::uint32_t>(end));
         const Eigen::Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).stableNormalized();
-        for (const std::uint32_t vertex : triangles_[end].corners)
+        for (const std::uint32_t vertex : triangles_[end])
           normals.try_emplace(vertex, Eigen::Vector3f::Zero()).first->second += normal.cast<float>();
       }
       for (size_t i = begin; i < end; ++i) {
         for (size_t k = 0; k < 3; ++k)
-          shrunk_[i][k] = -static_cast<float>(least) * normals.at(triangles_[i].corners[k]).stableNormalized();
+          shrunk_[i][k] = -static_cast<float>(least) * normals.at(triangles_[i][k]).stableNormalized();
       }
     }
   }
@@ -92,7 +93,7 @@ class CrossingSearch {
 
   // Also true if it gives up.
   bool findIn(const Eigen::AlignedBox3d& box, const Numbers& inside, int depth) {
-    const auto is_other = [&](std::uint32_t i) { return triangles_[i].part != triangles_[inside.front()].part; };
+    const auto is_other = [&](std::uint32_t i) { return parts_[i] != parts_[inside.front()]; };
     if (std::none_of(inside.begin(), inside.end(), is_other)) return false;
     if (inside.size() <= kFew || depth == 0) return anyPair(inside);
     beat();
@@ -120,7 +121,7 @@ class CrossingSearch {
     if (visits_ > kMaxVisits) return true;
     for (size_t i = 1; i < inside.size(); ++i) {
       for (size_t k = 0; k < i; ++k) {
-        if (triangles_[inside[i]].part != triangles_[inside[k]].part && cross(inside[i], inside[k])) return true;
+        if (parts_[inside[i]] != parts_[inside[k]] && cross(inside[i], inside[k])) return true;
       }
     }
     return false;
@@ -131,7 +132,8 @@ class CrossingSearch {
     return passesThrough(shrunk(i), cornersOf(k)) || passesThrough(shrunk(k), cornersOf(i));
   }
 
-  const std::vector<PartTriangle>& triangles_;
+  const std::vector<Triangle>& triangles_;
+  const Numbers& parts_;  // of each triangle
   const WeldedSurface& surface_;
   std::vector<std::array<Eigen::Vector3f, 3>> shrunk_;  // by how much each corner is [m]
   size_t visits_ = 0;
@@ -139,8 +141,9 @@ class CrossingSearch {
 
 }  // namespace
 
-std::optional<bool> partsCross(const std::vector<PartTriangle>& triangles, const WeldedSurface& surface, double least) {
-  return CrossingSearch(triangles, surface, least).run();
+std::optional<bool> partsCross(const std::vector<Triangle>& triangles, const Numbers& parts,
+                               const WeldedSurface& surface, double least) {
+  return CrossingSearch(triangles, parts, surface, least).run();
 }
 
 }  // namespace sweep_guard_core

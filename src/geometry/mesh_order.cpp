@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <boost/container/static_vector.hpp>
 #include <numeric>
 
 #include "sweep_guard/geometry/vertex_blocks.h"
@@ -53,38 +54,31 @@ bool makesBlocksMuchSmaller(const std::vector<std::uint32_t>& places, const std:
   return muchLess(totalSizeOfBlocks(kept), totalSizeOfBlocks(positions));
 }
 
-// A set of few numbers.
-class SmallSet {
- public:
-  using Array = std::array<std::uint32_t, simd::kClusterBlocks>;
+using Blocks = std::array<std::uint32_t, simd::kClusterBlocks>;
+using SmallSet = boost::container::static_vector<std::uint32_t, simd::kClusterBlocks>;
 
-  // Returns false and changes nothing if the set would be too large.
-  template <typename Numbers>
-  bool add(const Numbers& numbers) {
-    const size_t before = count_;
-    for (const std::uint32_t number : numbers) {
-      auto* const end = numbers_.begin() + count_;
-      if (std::find(numbers_.begin(), end, number) != end) continue;
-      if (count_ == numbers_.size()) {
-        count_ = before;
-        return false;
-      }
-      numbers_[count_++] = number;
+// Returns false and changes nothing if the set would be too large.
+template <typename Numbers>
+bool addNumbers(SmallSet& set, const Numbers& numbers) {
+  const size_t before = set.size();
+  for (const std::uint32_t number : numbers) {
+    if (std::find(set.begin(), set.end(), number) != set.end()) continue;
+    if (set.size() == set.capacity()) {
+      set.resize(before);
+      return false;
     }
-    return true;
+    set.push_back(number);
   }
+  return true;
+}
 
-  // Returns the numbers; the last one fills the rest.
-  Array filled() const {
-    Array filled = numbers_;
-    std::fill(filled.begin() + count_, filled.end(), numbers_[count_ - 1]);
-    return filled;
-  }
-
- private:
-  Array numbers_{};
-  size_t count_ = 0;
-};
+// Returns the numbers; the last one fills the rest.
+Blocks filled(const SmallSet& set) {
+  Blocks filled;
+  filled.fill(set.back());
+  std::copy(set.begin(), set.end(), filled.begin());
+  return filled;
+}
 
 template <typename Numbers>
 Numbers divided(Numbers numbers, std::uint32_t by) {
@@ -97,20 +91,20 @@ Cluster clusterFrom(std::uint32_t first, const std::vector<Triangle>& corners) {
   SmallSet blocks;
   std::uint32_t count = 0;
   while (first + count < corners.size() && count < simd::kCluster &&
-         blocks.add(divided(corners[first + count], simd::kBlock))) {
+         addNumbers(blocks, divided(corners[first + count], simd::kBlock))) {
     ++count;
   }
-  return {0, first, count, blocks.filled()};
+  return {0, first, count, filled(blocks)};
 }
 
 ClusterGroup groupFrom(std::uint32_t first, const std::vector<Cluster>& clusters) {
   SmallSet block_groups;
   std::uint32_t count = 0;
   while (first + count < clusters.size() && count < kClustersTogether &&
-         block_groups.add(divided(clusters[first + count].blocks, kBlocksTogether))) {
+         addNumbers(block_groups, divided(clusters[first + count].blocks, kBlocksTogether))) {
     ++count;
   }
-  return {first, count, block_groups.filled()};
+  return {first, count, filled(block_groups)};
 }
 
 std::vector<ClusterGroup> groupsOf(const std::vector<Cluster>& clusters) {

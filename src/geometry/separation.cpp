@@ -154,18 +154,15 @@ Eigen::Vector3d outwards(const Simplex& simplex, const Eigen::Vector3d& point) {
   return normal.normalized();
 }
 
-// The conditions for the end of a search.
-struct Goal {
+class Search {
+ public:
+  Search(const SupportMapping& tool, const SupportMapping& obstacle) : tool_(tool), obstacle_(obstacle) {}
+
+  // The conditions for the end of the search:
   double accuracy = 0.0;         // the gap differs from the distance by no more [m]
   double margin = kInfinity;     // or by no more than kShare of what the gap exceeds this by [m]
   double gap_above = kInfinity;  // the gap is larger [m]
   double distance_within = 0.0;  // the distance is not larger [m]
-};
-
-class Search {
- public:
-  Search(const SupportMapping& tool, const SupportMapping& obstacle, const Goal& goal)
-      : tool_(tool), obstacle_(obstacle), goal_(goal) {}
 
   Separation run(const Eigen::Vector3d& guess, const PointPairs& start = {}) {
     const double length = guess.norm();
@@ -207,11 +204,11 @@ class Search {
       best_.gap = gap;
       best_.normal = direction;
     }
-    if (simplex_.size() == 0) return approach(vertex) && best_.gap <= goal_.gap_above;
+    if (simplex_.size() == 0) return approach(vertex) && best_.gap <= gap_above;
     const double distance = std::sqrt(closest_.squared_distance);
     const double left = distance - best_.gap;
-    if (best_.gap > goal_.gap_above || left <= std::max(kEpsilon * size_, goal_.accuracy)) return false;
-    if (left <= kShare * (best_.gap - goal_.margin)) return false;
+    if (best_.gap > gap_above || left <= std::max(kEpsilon * size_, accuracy)) return false;
+    if (left <= kShare * (best_.gap - margin)) return false;
     return !simplex_.has(vertex.w, 2.0 * kEpsilon * size_) && approach(vertex);
   }
 
@@ -225,12 +222,11 @@ class Search {
     }
     simplex_.keep(closest);
     closest_ = closest;
-    return std::sqrt(closest_.squared_distance) > std::max(4.0 * kEpsilon * size_, goal_.distance_within);
+    return std::sqrt(closest_.squared_distance) > std::max(4.0 * kEpsilon * size_, distance_within);
   }
 
   const SupportMapping& tool_;
   const SupportMapping& obstacle_;
-  Goal goal_;
   double size_ = 0.0;  // known size of the Minkowski difference [m]
   Simplex simplex_;
   Closest closest_;
@@ -255,25 +251,25 @@ Eigen::Vector3d PointHull::supportPoint(const Eigen::Vector3d& direction) const 
 
 Separation separation(const SupportMapping& tool, const SupportMapping& obstacle, double accuracy,
                       const Eigen::Vector3d& guess, const PointPairs& start) {
-  Goal goal;
-  goal.accuracy = accuracy;
-  return Search(tool, obstacle, goal).run(guess, start);
+  Search search(tool, obstacle);
+  search.accuracy = accuracy;
+  return search.run(guess, start);
 }
 
 Separation roughSeparation(const SupportMapping& tool, const SupportMapping& obstacle, double margin, double accuracy,
                            const Eigen::Vector3d& guess, const PointPairs& start) {
-  Goal goal;
-  goal.accuracy = accuracy;
-  goal.margin = margin;
-  return Search(tool, obstacle, goal).run(guess, start);
+  Search search(tool, obstacle);
+  search.accuracy = accuracy;
+  search.margin = margin;
+  return search.run(guess, start);
 }
 
 bool distanceExceeds(const SupportMapping& tool, const SupportMapping& obstacle, double distance,
                      const Eigen::Vector3d& guess) {
-  Goal goal;
-  goal.gap_above = distance;
-  goal.distance_within = distance;
-  return Search(tool, obstacle, goal).run(guess).gap > distance;
+  Search search(tool, obstacle);
+  search.gap_above = distance;
+  search.distance_within = distance;
+  return search.run(guess).gap > distance;
 }
 
 }  // namespace sweep_guard_core

@@ -25,10 +25,10 @@ void PassivityController::visitActing(SteadyTime until, const Visit& visit) cons
   for (size_t i = 0; i < count_; ++i) {
     const Sent& sent = before(i);
     if (next != SteadyTime::max() && next + options_.output_delay <= *known_) return;
-    if (sent.at < until) visit(sent, std::min(next, until));
-    next = sent.at;
+    if (sent.stamp < until) visit(sent, std::min(next, until));
+    next = sent.stamp;
   }
-  if (*known_ < next) visit(Sent{0.0, *known_}, std::min(next, until));
+  if (*known_ < next) visit(Sent{*known_, 0.0}, std::min(next, until));
 }
 
 void PassivityController::moved(double displacement, SteadyTime until, double doubt) {
@@ -38,8 +38,8 @@ void PassivityController::moved(double displacement, SteadyTime until, double do
   double highest = 0.0;
   bool first = true;
   visitActing(until, [&](const Sent& sent, SteadyTime /*next*/) {
-    lowest = first ? sent.effort : std::min(lowest, sent.effort);
-    highest = first ? sent.effort : std::max(highest, sent.effort);
+    lowest = first ? sent.value : std::min(lowest, sent.value);
+    highest = first ? sent.value : std::max(highest, sent.value);
     first = false;
   });
   interval_ = seconds(until);
@@ -107,8 +107,8 @@ double PassivityController::unknownEnergy(SteadyTime now) const {
   double newer = 0.0;
   double increases = 0.0;
   visitActing(SteadyTime::max(), [&](const Sent& sent, SteadyTime next) {
-    const double effort = std::abs(sent.effort);
-    const double from = std::max(0.0, seconds(sent.at));
+    const double effort = std::abs(sent.value);
+    const double from = std::max(0.0, seconds(sent.stamp));
     energy += effort * (maxDisplacement(std::max(from, seconds(std::min(next, now)))) - maxDisplacement(from));
     increases += std::max(0.0, newer - effort);
     newer = effort;
@@ -121,10 +121,10 @@ double PassivityController::unknownEnergy(SteadyTime now) const {
 void PassivityController::remember(double effort, SteadyTime now) {
   if (count_ == kCapacity) {
     const Sent& oldest = before(kCapacity - 1);
-    const SteadyTime ended = before(kCapacity - 2).at + options_.output_delay;
-    if (ended > *known_) energy_ += std::abs(oldest.effort) * options_.max_speed * toSeconds(ended - oldest.at);
+    const SteadyTime ended = before(kCapacity - 2).stamp + options_.output_delay;
+    if (ended > *known_) energy_ += std::abs(oldest.value) * options_.max_speed * toSeconds(ended - oldest.stamp);
   }
-  ring_[next_] = {effort, now};
+  ring_[next_] = {now, effort};
   next_ = (next_ + 1) % kCapacity;
   count_ = std::min(count_ + 1, kCapacity);
 }

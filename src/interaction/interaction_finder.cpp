@@ -8,13 +8,6 @@ namespace {
 
 constexpr Duration kLongest = std::chrono::milliseconds(100);  // between two poses
 
-ForceLaw lawOf(const Workpiece& workpiece, const InteractionOptions& options) {
-  ForceLaw law = options.law;
-  const auto own = options.stiffness_of.find(workpiece.id);
-  if (own != options.stiffness_of.end()) law.stiffness = own->second;
-  return law;
-}
-
 Eigen::Isometry3d bodyInTool(const PoseWithFrames& pose, size_t body) {
   if (pose.state.positions.empty()) return Eigen::Isometry3d::Identity();  // without rounding
   return pose.X_WT.inverse() * pose.bodies[body].X_WB;
@@ -27,6 +20,13 @@ Interpenetration inTool(const Eigen::Isometry3d& X_TB, Interpenetration found) {
 }
 
 }  // namespace
+
+ForceLaw InteractionOptions::lawOf(const std::string& id) const {
+  ForceLaw of_workpiece = law;
+  const auto own = stiffness_of.find(id);
+  if (own != stiffness_of.end()) of_workpiece.stiffness = own->second;
+  return of_workpiece;
+}
 
 Wrench& Wrench::operator+=(const Wrench& other) {
   force_T += other.force_T;
@@ -98,7 +98,7 @@ void InteractionFinder::find(const PoseWithFrames& pose, const Workpieces& workp
 ObjectInteraction InteractionFinder::interact(const std::shared_ptr<const Workpiece>& workpiece,
                                               const PoseWithFrames& pose, const ToolMotion& motion,
                                               const InteractionOptions& options) {
-  const ForceLaw law = lawOf(*workpiece, options);
+  const ForceLaw law = options.lawOf(workpiece->id);
   ObjectInteraction sum;
   sum.workpiece = workpiece;
   Eigen::Vector3d moment_T = Eigen::Vector3d::Zero();

@@ -60,10 +60,7 @@ void TouchMap::touches(std::vector<ObjectTouches>& objects) const {
     object.revision = touched.workpiece->revision;
     object.triangles.clear();
     object.jump_triangles = touched.jump_triangles;
-    for (const std::uint32_t triangle : touched.triangles) {
-      const TouchCount& touch = touched.of_triangle[triangle];
-      object.triangles.push_back({triangle, touch.sweeps, touch.depth});
-    }
+    for (const std::uint32_t triangle : touched.triangles) object.triangles.push_back(touched.of_triangle[triangle]);
   }
   objects.resize(count);
 }
@@ -110,9 +107,9 @@ void TouchMap::findTouched(const SweepResult& result) {
 
 void TouchMap::count(const SweepResult& result, Touched& touched) const {
   for (const std::uint32_t triangle : in_sweep_) {
-    TouchCount& touch = touched.of_triangle[triangle];
+    TriangleTouches& touch = touched.of_triangle[triangle];
     if (touch.sweeps == 0) {
-      touch.depth = kUnknown;
+      touch = {triangle, 0, kUnknown};
       touched.triangles.push_back(triangle);
     }
     if (touch.sweeps < std::numeric_limits<std::uint32_t>::max()) ++touch.sweeps;

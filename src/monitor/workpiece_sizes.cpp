@@ -20,6 +20,16 @@ struct Placed {
   Distance distance;
 };
 
+std::vector<Placed> withDistances(const Workpieces& workpieces, const std::map<std::string, Distance>& distances) {
+  std::vector<Placed> all;
+  for (const auto& workpiece : workpieces) {
+    const auto distance = distances.find(workpiece->id);
+    all.push_back({workpiece.get(), workpiece->mesh_M.bounds_M().sizes(),
+                   distance == distances.end() ? Distance{} : distance->second});
+  }
+  return all;
+}
+
 std::string shortText(double value) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.3g", value);
@@ -64,23 +74,23 @@ std::string tooFar(const std::vector<Placed>& all) {
 
 }  // namespace
 
-WorkpieceSizes workpieceSizes(const Workpieces& workpieces, const std::map<std::string, Distance>& distances) {
-  std::vector<Placed> all;
-  for (const auto& workpiece : workpieces) {
-    const auto distance = distances.find(workpiece->id);
-    all.push_back({workpiece.get(), workpiece->mesh_M.bounds_M().sizes(),
-                   distance == distances.end() ? Distance{} : distance->second});
-  }
-  WorkpieceSizes sizes;
-  const std::string length = tooLong(all);
-  const std::string gap = tooFar(all);
-  sizes.doubt = length + (length.empty() || gap.empty() ? "" : "; ") + gap;
+std::vector<std::pair<std::string, std::string>> workpieceSizes(const Workpieces& workpieces,
+                                                                const std::map<std::string, Distance>& distances) {
+  std::vector<Placed> all = withDistances(workpieces, distances);
   const auto at = [](const Placed& one) { return one.distance.now.value_or(std::numeric_limits<double>::infinity()); };
   const auto nearer = [&](const Placed& one, const Placed& other) { return at(one) < at(other); };
   std::stable_sort(all.begin(), all.end(), nearer);
   if (all.size() > kMaxShown) all.resize(kMaxShown);
-  for (const Placed& placed : all) sizes.nearest.emplace_back(placed.workpiece->id, sizeInWords(placed));
-  return sizes;
+  std::vector<std::pair<std::string, std::string>> nearest;
+  for (const Placed& one : all) nearest.emplace_back(one.workpiece->id, sizeInWords(one));
+  return nearest;
+}
+
+std::string doubtfulSizes(const Workpieces& workpieces, const std::map<std::string, Distance>& distances) {
+  const std::vector<Placed> all = withDistances(workpieces, distances);
+  const std::string length = tooLong(all);
+  const std::string gap = tooFar(all);
+  return length + (length.empty() || gap.empty() ? "" : "; ") + gap;
 }
 
 }  // namespace sweep_guard_core

@@ -10,8 +10,8 @@ constexpr Duration kTwoShortest = std::chrono::milliseconds(2);  // periods
 }  // namespace
 
 void MotionInFlight::add(const Twist& twist_W, SteadyTime sent) {
-  if (count_ >= 2 && sent - before(1).sent < kTwoShortest) joinNewest(sent);
-  ring_[next_] = {twist_W, sent};
+  if (count_ >= 2 && sent - before(1).stamp < kTwoShortest) joinNewest(sent);
+  ring_[next_] = {sent, twist_W};
   next_ = (next_ + 1) % kCapacity;
   count_ = std::min(count_ + 1, kCapacity);
 }
@@ -22,10 +22,10 @@ void MotionInFlight::joinNewest(SteadyTime until) {
   next_ = placeBefore(next_, 0);
   --count_;
   Sent& joined = ring_[placeBefore(next_, 0)];
-  const Duration whole = until - joined.sent;
-  const double share = whole > Duration::zero() ? toSeconds(until - newest.sent) / toSeconds(whole) : 1.0;
-  joined.twist_W.v_W += share * (newest.twist_W.v_W - joined.twist_W.v_W);
-  joined.twist_W.w_W += share * (newest.twist_W.w_W - joined.twist_W.w_W);
+  const Duration whole = until - joined.stamp;
+  const double share = whole > Duration::zero() ? toSeconds(until - newest.stamp) / toSeconds(whole) : 1.0;
+  joined.value.v_W += share * (newest.value.v_W - joined.value.v_W);
+  joined.value.w_W += share * (newest.value.w_W - joined.value.w_W);
 }
 
 Eigen::Isometry3d MotionInFlight::expectedPose(const Eigen::Isometry3d& X_WT, SteadyTime now, Duration window) const {
@@ -34,10 +34,10 @@ Eigen::Isometry3d MotionInFlight::expectedPose(const Eigen::Isometry3d& X_WT, St
   SteadyTime until = now;
   for (size_t i = 0; i < count_ && until > now - window; ++i) {
     const Sent& sent = before(i);
-    const double seconds = toSeconds(until - std::max(sent.sent, now - window));
-    moved_W += seconds * sent.twist_W.v_W;
-    turned_W += seconds * sent.twist_W.w_W;
-    until = sent.sent;
+    const double seconds = toSeconds(until - std::max(sent.stamp, now - window));
+    moved_W += seconds * sent.value.v_W;
+    turned_W += seconds * sent.value.w_W;
+    until = sent.stamp;
   }
   Eigen::Isometry3d expected_WT = X_WT;
   expected_WT.translation() += moved_W;

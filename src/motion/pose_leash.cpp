@@ -50,8 +50,9 @@ void PoseLeash::observe(const Observation& seen, const Eigen::Isometry3d& sent_W
 
 void PoseLeash::remember(const Eigen::Isometry3d& sent_WT) {
   const double spacing = toSeconds(options_.dead_time + 2 * lag_ + seen_.period + seen_.age) / kSamplesAWindow;
-  if (count_ > 0 && toSeconds(seen_.now - before(0).at) < spacing) return;
-  ring_[next_] = {seen_.now, seen_.now - seen_.age, seen_.X_WT, sent_WT};
+  if (count_ > 0 && toSeconds(seen_.now - before(0).now) < spacing) return;
+  ring_[next_] = seen_;
+  ring_[next_].sent_WT = sent_WT;
   next_ = (next_ + 1) % kSamples;
   count_ = std::min(count_ + 1, kSamples);
 }
@@ -72,9 +73,9 @@ bool PoseLeash::hasStood(const Eigen::Isometry3d& sent_WT) const {
   const SteadyTime begin = seen_.now - (options_.dead_time + 2 * lag_ + seen_.period + seen_.age);
   double moved = 0.0;
   for (size_t i = 0; i < count_; ++i) {
-    const Sample& sample = before(i);
+    const Observation& sample = before(i);
     moved = std::max(moved, between(sample.X_WT, seen_.X_WT));
-    if (sample.at <= begin) return moved < kFollows * between(sample.X_WT, sample.sent_WT);
+    if (sample.now <= begin) return moved < kFollows * between(sample.X_WT, sample.sent_WT);
   }
   return false;
 }
@@ -107,10 +108,11 @@ Eigen::Isometry3d PoseLeash::rest(const Eigen::Isometry3d& sent_WT) const {
 double PoseLeash::approach(const Eigen::Isometry3d& sent_WT) const {
   const SteadyTime measured = seen_.now - seen_.age;
   for (size_t i = 0; i < count_; ++i) {
-    const Sample& sample = before(i);
-    if (measured - sample.measured < kSpeedWindow) continue;
+    const Observation& sample = before(i);
+    const Duration passed = measured - (sample.now - sample.age);
+    if (passed < kSpeedWindow) continue;
     const double nearer = between(sample.X_WT, sent_WT) - between(seen_.X_WT, sent_WT);
-    return std::max(0.0, nearer / toSeconds(measured - sample.measured));
+    return std::max(0.0, nearer / toSeconds(passed));
   }
   return 0.0;
 }

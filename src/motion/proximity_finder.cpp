@@ -1,11 +1,10 @@
 #include "sweep_guard/motion/proximity_finder.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "common/floating_point.h"
 #include "motion/facing.h"
-#include "motion/plane_collector.h"
+#include "motion/proximity_planes.h"
 
 namespace sweep_guard_core {
 namespace {
@@ -54,6 +53,10 @@ class ProximityFinder::Search {
   void wait(std::uint32_t index, const SeparatedTriangle& separated);
   bool standFor(const WaitingPart& waiting, const SeparatedTriangle& separated);
   bool leaveOver(double distance);
+  template <typename... Part>
+  void quicken(size_t plane, const Facing& facing, const Part&... part) {
+    sweep_guard_core::quicken(found_->planes[plane].plane, facing, request_->pose.X_WT, part...);
+  }
 
   void begin();
 
@@ -63,7 +66,6 @@ class ProximityFinder::Search {
   // Of the running search:
   const ProximityRequest* request_ = nullptr;
   Proximity* found_ = nullptr;
-  std::optional<PlaneCollector> planes_;
 };
 
 void ProximityFinder::Search::begin() {
@@ -84,7 +86,6 @@ void ProximityFinder::Search::begin() {
 void ProximityFinder::Search::run(const ProximityRequest& request, Proximity& proximity) {
   request_ = &request;
   found_ = &proximity;
-  planes_.emplace(request.pose.X_WT, proximity.planes);
   begin();
   while (!waiting_.empty() && process(pop())) {
   }
@@ -93,7 +94,6 @@ void ProximityFinder::Search::run(const ProximityRequest& request, Proximity& pr
   facings_.end();
   request_ = nullptr;
   found_ = nullptr;
-  planes_.reset();
 }
 
 // They are not where the boxes of the mesh say.
@@ -137,7 +137,7 @@ bool ProximityFinder::Search::processPart(const WaitingPart& waiting, const Part
   const Facing& facing = facings_[waiting.facing];
   const CenteredBox box(facing.surface->boxes.of(part));
   if (const auto plane = facing.cover.behind(box)) {
-    planes_->quicken(*plane, facing, part, box);
+    quicken(*plane, facing, part, box);
     return true;
   }
   if (waiting.bound >= request_->reach) return leaveOver(waiting.bound);
@@ -167,7 +167,7 @@ void ProximityFinder::Search::open(const WaitingPart& waiting, const Cluster& cl
   Facing& facing = facings_[waiting.facing];
   if (!facing.cover.hasNearest()) seed(waiting, cluster, box);
   const PieceCover::Classified classified = facing.cover.classify(cluster, box);
-  for (const size_t plane : classified.standing) planes_->quicken(plane, facing, cluster, box);
+  for (const size_t plane : classified.standing) quicken(plane, facing, cluster, box);
   const double limit = std::min(facing.nearest, request_->reach);
   double rest = classified.not_nearer != 0 ? facing.nearest : kInfinity;
   for (std::uint64_t left = classified.nearer; left != 0; left &= left - 1) {
@@ -225,7 +225,7 @@ bool ProximityFinder::Search::processTriangle(const WaitingPart& waiting) {
   const PieceCover::Corners at = facing.corners(separated.triangle);
   if (known && waiting.bound >= facing.nearest) facing.forgetNearest();
   if (const auto plane = facing.cover.behind(at, waiting.checked)) {
-    planes_->quicken(*plane, facing, facing.mesh().triangles()[separated.triangle]);
+    quicken(*plane, facing, facing.mesh().triangles()[separated.triangle]);
     return true;
   }
   if (waiting.bound >= request_->reach) return leaveOver(waiting.bound);
@@ -243,10 +243,10 @@ bool ProximityFinder::Search::processTriangle(const WaitingPart& waiting) {
 // Returns false if it is left over: no plane is free.
 bool ProximityFinder::Search::standFor(const WaitingPart& waiting, const SeparatedTriangle& separated) {
   Facing& facing = facings_[waiting.facing];
-  if (separated.gap <= 0.0 && planes_->join(facing, separated)) return true;
+  if (separated.gap <= 0.0 && joinFacingPlane(facing, separated, request_->pose.X_WT, found_->planes)) return true;
   const double distance = std::min((1.0 - kNearer) * separated.gap, leastBound());
-  if (distance >= request_->reach || planes_->full()) return leaveOver(distance);
-  planes_->add(facing, separated);
+  if (distance >= request_->reach || found_->planes.size() == kMaxPlanes) return leaveOver(distance);
+  addFacingPlane(facing, separated, request_->pose.X_WT, found_->planes);
   return true;
 }
 

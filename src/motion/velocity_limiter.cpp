@@ -32,12 +32,14 @@ Twist VelocityLimiter::limit(const Twist& command_W, const std::vector<FacingBal
   collectRows(command_W, facing, limits);
   const double allowed = allowedSpeed(uncovered, limits);
   const double fastest = fastestPoint(command_W, limits.tool_radius);
-  if (fastest <= allowed && largestScale({command_W.v_W, 1.0}, kCommandRounding * fastest) == 1.0) return command_W;
+  if (fastest <= allowed && largestScale(command_W.v_W, 1.0, kCommandRounding * fastest) == 1.0) return command_W;
 
-  const Motion motion = nearest(command_W);
-  const double speed = fastestPoint({motion.v_W, motion.s * command_W.w_W}, limits.tool_radius);
-  const double scale = std::min(largestScale(motion, kMaxRounding * fastest), speed > allowed ? allowed / speed : 1.0);
-  return {scale * motion.v_W, scale * motion.s * command_W.w_W};
+  const Eigen::Vector4d motion = nearest(command_W);
+  const Eigen::Vector3d v_W = motion.head<3>();
+  const double s = motion[3];
+  const double speed = fastestPoint({v_W, s * command_W.w_W}, limits.tool_radius);
+  const double scale = std::min(largestScale(v_W, s, kMaxRounding * fastest), speed > allowed ? allowed / speed : 1.0);
+  return {scale * v_W, scale * s * command_W.w_W};
 }
 
 void VelocityLimiter::collectRows(const Twist& command_W, const std::vector<FacingBall>& facing,
@@ -65,23 +67,24 @@ void VelocityLimiter::collectHalfSpaces(double speed) {
   }
 }
 
-// If there is no nearest point, largestScale() has to do.
-VelocityLimiter::Motion VelocityLimiter::nearest(const Twist& command_W) {
+// Returns v' and s. If there is no nearest point, largestScale() has to do.
+Eigen::Vector4d VelocityLimiter::nearest(const Twist& command_W) {
   const double speed = command_W.v_W.stableNorm();
   collectHalfSpaces(speed);
   Eigen::Vector4d target = Eigen::Vector4d::UnitW();
   if (speed > 0.0) target.head<3>() = command_W.v_W / speed;
   const std::optional<NearestPoint> nearest = nearestPoint(target, half_spaces_);
-  if (!nearest) return {command_W.v_W, 1.0};
+  if (!nearest) return (Eigen::Vector4d() << command_W.v_W, 1.0).finished();
   const double scale = 1.0 / std::max(1.0, nearest->point.head<3>().norm());
-  return {scale * speed * nearest->point.head<3>(), scale * std::clamp(nearest->point[3], 0.0, 1.0)};
+  const double s = scale * std::clamp(nearest->point[3], 0.0, 1.0);
+  return (Eigen::Vector4d() << scale * speed * nearest->point.head<3>(), s).finished();
 }
 
 // Returns the largest share of a motion at which no plane is closed on too fast.
-double VelocityLimiter::largestScale(const Motion& motion, double tolerance) const {
+double VelocityLimiter::largestScale(const Eigen::Vector3d& v_W, double s, double tolerance) const {
   double scale = 1.0;
   for (const Row& row : rows_) {
-    const double closing = row.closing(motion.v_W, motion.s);
+    const double closing = row.closing(v_W, s);
     if (closing > row.limit + tolerance) scale = std::min(scale, row.limit / closing);
   }
   return scale;

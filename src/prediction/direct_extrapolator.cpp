@@ -24,38 +24,48 @@ static_assert(kReturn + 1 == kRegressors);
 }  // namespace
 
 template <typename Space>
-MotionRegressors<Space>::MotionRegressors() {
+LearnedMotion<Space>::LearnedMotion(const typename Space::Speeds& prior_speeds, size_t channels)
+    : share(1.0 / static_cast<double>(channels)) {
+  for (int group = 0; group < Space::kGroups; ++group) {
+    Regressions& regressions = groups.emplace_back();
+    for (const double ahead : kLearnedHorizons) regressions.emplace_back(ahead, prior_speeds[group]);
+  }
+}
+
+template <typename Space>
+DirectExtrapolator<Space>::DirectExtrapolator(std::shared_ptr<LearnedMotion<Space>> learned)
+    : learned_(std::move(learned)) {
   for (const int milliseconds : kWindows) windows_.emplace_back(std::chrono::milliseconds(milliseconds));
 }
 
 template <typename Space>
-void MotionRegressors<Space>::observe(const MotionTracker<Space>& tracker) {
+void DirectExtrapolator<Space>::measure(const MotionTracker<Space>& tracker) {
   for (size_t i = 0; i < windows_.size(); ++i) {
     windows_[i].observe(tracker);
-    values_.col(static_cast<Eigen::Index>(i)) = windows_[i].value();
+    regressors_.col(static_cast<Eigen::Index>(i)) = windows_[i].value();
   }
   average(tracker);
-  values_.col(kReturn) = (tracker.coordinates() - center_) / kCenterTime;
+  regressors_.col(kReturn) = (tracker.coordinates() - center_) / kCenterTime;
   scale();
 }
 
 template <typename Space>
-void MotionRegressors<Space>::average(const MotionTracker<Space>& tracker) {
+void DirectExtrapolator<Space>::average(const MotionTracker<Space>& tracker) {
   if (tracker.step() == MotionTracker<Space>::Step::kBegins) center_ = tracker.coordinates();
   if (tracker.step() != MotionTracker<Space>::Step::kContinues) return;
   const double period = toSeconds(tracker.period());
   center_ += (1.0 - std::exp(-period / kCenterTime)) * (tracker.coordinates() - center_);
   typename Space::Speeds squares;
   for (int i = 0; i < Space::kGroups; ++i)
-    squares[i] = values_.col(kModerate).template segment<Space::kAxes>(i * Space::kAxes).squaredNorm();
+    squares[i] = regressors_.col(kModerate).template segment<Space::kAxes>(i * Space::kAxes).squaredNorm();
   speeds_.add(squares, period);
 }
 
 template <typename Space>
-void MotionRegressors<Space>::scale() {
+void DirectExtrapolator<Space>::scale() {
   const typename Space::Speeds mean = speeds_.mean().sqrt();
   for (int i = 0; i < Space::kGroups; ++i) {
-    auto values = values_.template middleRows<Space::kAxes>(i * Space::kAxes);
+    auto values = regressors_.template middleRows<Space::kAxes>(i * Space::kAxes);
     if (mean[i] == 0.0) {
       values.col(kScaled).setZero();
       values.col(kSaturated).setZero();
@@ -66,28 +76,15 @@ void MotionRegressors<Space>::scale() {
   }
 }
 
-template class MotionRegressors<PoseSpace>;
-template class MotionRegressors<JointSpace>;
-
-template <typename Space>
-LearnedMotion<Space>::LearnedMotion(const typename Space::Speeds& prior_speeds, size_t channels)
-    : share(1.0 / static_cast<double>(channels)) {
-  for (int group = 0; group < Space::kGroups; ++group) {
-    Regressions& regressions = groups.emplace_back();
-    for (const double ahead : kLearnedHorizons) regressions.emplace_back(ahead, prior_speeds[group]);
-  }
-}
-
 template <typename Space>
 void DirectExtrapolator<Space>::observe(const MotionTracker<Space>& tracker) {
   using Step = typename MotionTracker<Space>::Step;
-  regressors_.observe(tracker);
-  const auto& newest = regressors_.values();
+  measure(tracker);
   if (tracker.step() == Step::kBegins) targets_.clear();
-  if (tracker.step() == Step::kCorrects) targets_.correctNewest(tracker.newest(), newest);
+  if (tracker.step() == Step::kCorrects) targets_.correctNewest(tracker.newest(), regressors_);
   if (tracker.step() != Step::kContinues) return;
   const double period = learned_->share * toSeconds(tracker.period());
-  targets_.add(tracker.newest(), newest, [&](const auto& then, size_t i, const Vector& moved) {
+  targets_.add(tracker.newest(), regressors_, [&](const auto& then, size_t i, const Vector& moved) {
     for (size_t group = 0; group < learned_->groups.size(); ++group) {
       const auto first = static_cast<Eigen::Index>(group) * Space::kAxes;
       learned_->groups[group][i].learn(then.template middleRows<Space::kAxes>(first),
@@ -112,7 +109,7 @@ typename Space::Vector DirectExtrapolator<Space>::displacementIn(double ahead) c
     const auto weights = interpolateOverHorizons<Weights>(
         ahead, [&](size_t i) { return learned_->groups[group][i].weights() / kLearnedHorizons[i]; });
     displacement.template segment<Space::kAxes>(first) =
-        ahead * regressors_.values().template middleRows<Space::kAxes>(first) * weights;
+        ahead * regressors_.template middleRows<Space::kAxes>(first) * weights;
   }
   return displacement;
 }

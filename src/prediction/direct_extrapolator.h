@@ -21,30 +21,6 @@
 
 namespace sweep_guard_core {
 
-/// Measures what displacements are regressed on. All are velocities: of the newest motion over windows of 50, 120, 300,
-/// 800 and 20 ms; one of them times its speed, because fast motions end sooner; one of them at a saturated speed,
-/// because slow ones last; and the distance from where it was on average, because a hand returns there.
-template <typename Space>
-class MotionRegressors {
- public:
-  /// Of a tool: translation [m/s] above rotation [rad/s]. One regressor per column.
-  using Values = Eigen::Matrix<double, Space::kSize, kRegressors>;
-
-  MotionRegressors();
-
-  void observe(const MotionTracker<Space>& tracker);
-  const Values& values() const { return values_; }
-
- private:
-  void average(const MotionTracker<Space>& tracker);
-  void scale();
-
-  std::vector<Velocity<Space>> windows_;
-  ExponentialMovingAverage<typename Space::Speeds> speeds_{Space::Speeds::Zero()};  // squared, of each group
-  typename Space::Vector center_ = Space::Vector::Zero();                           // mean of the recent coordinates
-  Values values_ = Values::Zero();
-};
-
 /// What is learned for each of kLearnedHorizons, of each group of axes. Channels may share it: joints that one hand moves.
 template <typename Space>
 struct LearnedMotion {
@@ -57,14 +33,17 @@ struct LearnedMotion {
   const double share;               ///< of each channel in the time that is learned from
 };
 
-/// Predicts displacements by one DisplacementRegression on MotionRegressors for each of kLearnedHorizons.
+/// Predicts displacements by one DisplacementRegression for each of kLearnedHorizons. They are regressed on velocities: of
+/// the newest motion over windows of 50, 120, 300, 800 and 20 ms; one of them times its speed, because fast motions end
+/// sooner; one of them at a saturated speed, because slow ones last; and the distance from where it was on average, because
+/// a hand returns there.
 template <typename Space>
 class DirectExtrapolator : public Extrapolator<Space> {
  public:
   using Vector = typename Space::Vector;
 
   /// @param learned  not null; not checked
-  explicit DirectExtrapolator(std::shared_ptr<LearnedMotion<Space>> learned) : learned_(std::move(learned)) {}
+  explicit DirectExtrapolator(std::shared_ptr<LearnedMotion<Space>> learned);
 
   void observe(const MotionTracker<Space>& tracker) override;
   Vector displacementIn(double ahead) const override;
@@ -74,10 +53,19 @@ class DirectExtrapolator : public Extrapolator<Space> {
   using Weights = typename Regression::Weights;
   using Regressions = typename LearnedMotion<Space>::Regressions;
 
+  // Of a tool: translation [m/s] above rotation [rad/s]. One regressor per column.
+  using Regressors = Eigen::Matrix<double, Space::kSize, kRegressors>;
+
+  void measure(const MotionTracker<Space>& tracker);
+  void average(const MotionTracker<Space>& tracker);
+  void scale();
   static Weights expectedWeights(const Regressions& regressions, size_t horizon);
 
-  MotionRegressors<Space> regressors_;
-  DelayedTargets<Space, typename MotionRegressors<Space>::Values> targets_;
+  std::vector<Velocity<Space>> windows_;
+  ExponentialMovingAverage<typename Space::Speeds> speeds_{Space::Speeds::Zero()};  // squared, of each group
+  Vector center_ = Vector::Zero();                                                  // mean of the recent coordinates
+  Regressors regressors_ = Regressors::Zero();
+  DelayedTargets<Space, Regressors> targets_;
   const std::shared_ptr<LearnedMotion<Space>> learned_;
 };
 

@@ -67,18 +67,17 @@ Vector3 at(const std::vector<float>& positions, std::uint32_t vertex) {
 
 }  // namespace
 
-Highlights highlightsOf(const sweep_guard::ObjectView& view, const Triangles& intended, size_t triangles) {
-  Highlights shown;
-  shown.touched = below(view.touched, triangles);
-  shown.reflex = without(below(view.reflex, triangles), shown.touched);
-  shown.considered = without(without(below(view.considered, triangles), shown.touched), shown.reflex);
-  shown.allowed = below(view.allowed, triangles);
-  shown.intended = below(intended, triangles);
-  for (const Triangles* const urgent : {&shown.touched, &shown.reflex, &shown.considered}) {
-    shown.allowed = without(shown.allowed, *urgent);
-    shown.intended = without(shown.intended, *urgent);
+SurfaceVisual::Highlights highlightsOf(const sweep_guard::ObjectView& view, const Triangles& intended,
+                                       size_t triangles) {
+  SurfaceVisual::Highlights shown;
+  shown[SurfaceVisual::kTouched] = below(view.touched, triangles);
+  shown[SurfaceVisual::kReflex] = below(view.reflex, triangles);
+  shown[SurfaceVisual::kConsidered] = below(view.considered, triangles);
+  shown[SurfaceVisual::kAllowed] = below(view.allowed, triangles);
+  shown[SurfaceVisual::kIntended] = below(intended, triangles);
+  for (size_t layer = SurfaceVisual::kIntended; layer < shown.size(); ++layer) {
+    for (size_t above = layer + 1; above < shown.size(); ++above) shown[layer] = without(shown[layer], shown[above]);
   }
-  shown.intended = without(shown.intended, shown.allowed);
   return shown;
 }
 
@@ -198,11 +197,7 @@ void SurfaceVisual::writeVertices() {
 
 void SurfaceVisual::highlight(const Highlights& highlights) {
   if (entity_ == nullptr) return;
-  setIndices(kTouched, highlights.touched);
-  setIndices(kReflex, highlights.reflex);
-  setIndices(kConsidered, highlights.considered);
-  setIndices(kAllowed, highlights.allowed);
-  setIndices(kIntended, highlights.intended);
+  for (size_t layer = kIntended; layer < kLayers; ++layer) setIndices(static_cast<Layer>(layer), highlights[layer]);
   updateVisibility();
 }
 

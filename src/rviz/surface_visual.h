@@ -9,32 +9,13 @@
 #include <shape_msgs/MeshTriangle.h>
 #include <sweep_guard/ObjectView.h>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "rviz/heat_map.h"
 
 namespace sweep_guard_rviz {
-
-/// Lists the triangles of a workpiece that are shown in a color of their own: ascending, each triangle in one list.
-struct Highlights {
-  std::vector<std::uint32_t> touched;
-  std::vector<std::uint32_t> reflex;      ///< without those in touched
-  std::vector<std::uint32_t> considered;  ///< without those in touched and reflex
-  std::vector<std::uint32_t> allowed;     ///< touched by links that may, without those above
-  std::vector<std::uint32_t> intended;    ///< without those above
-
-  bool operator==(const Highlights& other) const {
-    return touched == other.touched && reflex == other.reflex && considered == other.considered &&
-           allowed == other.allowed && intended == other.intended;
-  }
-};
-
-/// Assigns each triangle to its most urgent list. Drops indices that the workpiece does not have.
-/// @param intended   where contact is meant
-/// @param triangles  number of triangles of the workpiece
-Highlights highlightsOf(const sweep_guard::ObjectView& view, const std::vector<std::uint32_t>& intended,
-                        size_t triangles);
 
 /// Draws a deforming surface with highlighted triangles. All layers share one vertex buffer, which a deformation
 /// overwrites; each layer has an index buffer.
@@ -45,12 +26,14 @@ class SurfaceVisual {
     kSurface,
     kHeat,  ///< the first of kHeatColors
     kIntended = kHeat + kHeatColors,
-    kAllowed,
+    kAllowed,  ///< touched by links that may
     kConsidered,
     kReflex,
     kTouched,
     kLayers
   };
+  /// The triangles that are shown in a color of their own, by layer, from kIntended on: ascending, each in one layer.
+  using Highlights = std::array<std::vector<std::uint32_t>, kLayers>;
 
   SurfaceVisual(Ogre::SceneManager& scene, Ogre::SceneNode& node);
   ~SurfaceVisual();
@@ -95,5 +78,11 @@ class SurfaceVisual {
   std::vector<float> positions_;  // empty: none received
   Ogre::ColourValue color_;
 };
+
+/// Assigns each triangle to its most urgent layer. Drops indices that the workpiece does not have.
+/// @param intended   where contact is meant
+/// @param triangles  number of triangles of the workpiece
+SurfaceVisual::Highlights highlightsOf(const sweep_guard::ObjectView& view, const std::vector<std::uint32_t>& intended,
+                                       size_t triangles);
 
 }  // namespace sweep_guard_rviz

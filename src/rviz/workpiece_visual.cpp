@@ -117,10 +117,10 @@ std::string WorkpieceVisual::legend() const { return legendOf(heat_, colored_by_
 void WorkpieceVisual::show(const sweep_guard::ObjectView& view, const DisplayStyle& style) {
   if (frame_.empty()) frame_ = view.frame_id;
   static const std::vector<std::uint32_t> kNone;
-  const Highlights highlights =
+  const SurfaceVisual::Highlights highlights =
       highlightsOf(fits(view) ? view : sweep_guard::ObjectView(), revision_ == intended_revision_ ? intended_ : kNone,
                    surface_.triangleCount());
-  if (!highlights_ || !(*highlights_ == highlights)) surface_.highlight(highlights);
+  if (highlights_ != highlights) surface_.highlight(highlights);
   highlights_ = highlights;
   showVolumes(view, style);
   showContacts(view, style);

@@ -71,7 +71,7 @@ class WorkpieceVisual {
   rviz::MovableText label_;  // at the deepest contact
   Ogre::SceneNode* label_node_;
   VolumeHistory history_;
-  std::optional<Highlights> highlights_;
+  std::optional<SurfaceVisual::Highlights> highlights_;
   std::uint32_t intended_revision_ = 0;
   std::vector<std::uint32_t> intended_;
   HeatMap heat_;

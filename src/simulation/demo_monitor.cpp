@@ -19,7 +19,6 @@
 #include <vector>
 
 #include "common/run_program.h"
-#include "recording/object_contacts.h"
 #include "simulation/demo_statistics.h"
 #include "sweep_guard/Contacts.h"
 #include "sweep_guard/DeformableMesh.h"
@@ -177,13 +176,7 @@ class DemoMonitor {
     const sweep_guard_core::Time start = fromMsg(contacts->interval_start);
     const sweep_guard_core::Time stamp = fromMsg(contacts->header.stamp);
     if (settling_ && !statistics_.expects(start, stamp)) return;
-    std::vector<ContactObject> objects;
-    for (const sweep_guard::ObjectContacts& object : contacts->objects) {
-      if (!sweep_guard_recording::isInContact(object)) continue;
-      objects.push_back({object.mesh_id, sweep_guard_recording::trianglesInContact(object),
-                         sweep_guard_recording::linksInContact(object)});
-    }
-    statistics_.addContacts(start, stamp, arrival, objects);
+    statistics_.addContacts(start, stamp, arrival, contacts->objects);
   }
 
   void handleMessages() { ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01)); }

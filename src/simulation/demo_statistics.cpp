@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "recording/object_contacts.h"
 #include "sweep_guard/common/quantile.h"
 
 namespace sweep_guard_simulation {
@@ -62,15 +63,20 @@ double DemoStatistics::meshRate() const {
   return static_cast<double>(mesh_updates_ - 1) / toSeconds(last_update_ - first_update_);
 }
 
-void DemoStatistics::addContacts(Time start, Time stamp, Time arrival, const std::vector<ContactObject>& objects) {
+void DemoStatistics::addContacts(Time start, Time stamp, Time arrival,
+                                 const std::vector<sweep_guard::ObjectContacts>& objects) {
+  bool any = false;
   std::size_t triangles = 0;
   std::set<std::string> links;
-  for (const ContactObject& object : objects) {
-    links.insert(object.links.begin(), object.links.end());
-    triangles += object.triangles.size();
-    for (const std::uint32_t triangle : object.triangles) triangles_.emplace(object.mesh_id, triangle);
+  for (const sweep_guard::ObjectContacts& object : objects) {
+    if (!sweep_guard_recording::isInContact(object)) continue;
+    any = true;
+    links.merge(sweep_guard_recording::linksInContact(object));
+    const std::vector<std::uint32_t> met = sweep_guard_recording::trianglesInContact(object);
+    triangles += met.size();
+    for (const std::uint32_t triangle : met) triangles_.emplace(object.mesh_id, triangle);
   }
-  if (!objects.empty()) ++contacts_;
+  if (any) ++contacts_;
   for (const std::string& link : links) ++contacts_by_link_[link];
   latencies_.push_back({stamp, arrival - stamp, triangles});
   swept_.add(start, stamp);

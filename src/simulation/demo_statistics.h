@@ -12,16 +12,10 @@
 
 #include "recording/level_trace.h"
 #include "recording/swept_intervals.h"
+#include "sweep_guard/ObjectContacts.h"
 #include "sweep_guard/common/time.h"
 
 namespace sweep_guard_simulation {
-
-/// A workpiece in contact.
-struct ContactObject {
-  std::string mesh_id;
-  std::vector<std::uint32_t> triangles;  ///< empty: the tool is inside the workpiece
-  std::set<std::string> links;           ///< of the tool that touch; empty: not known
-};
 
 /// Time from a pose to the answer of the guard.
 struct Latency {
@@ -43,8 +37,9 @@ class DemoStatistics {
   /// @param force  on the tool [N]
   void addForce(double force) { largest_force_ = std::max(force, largest_force_.value_or(0.0)); }
   /// @param start, stamp  of the swept interval
+  /// @param objects       those that are not in contact do not count
   void addContacts(sweep_guard_core::Time start, sweep_guard_core::Time stamp, sweep_guard_core::Time arrival,
-                   const std::vector<ContactObject>& objects);
+                   const std::vector<sweep_guard::ObjectContacts>& objects);
   /// @param arrival  not earlier than that of the previous warning
   void addWarning(sweep_guard_core::Time arrival, sweep_guard_core::WarningLevel level) { levels_.add(arrival, level); }
 

@@ -56,24 +56,21 @@ InteractiveMarker sixDofMarker(const std::string& frame, const Eigen::Isometry3d
 
 using sweep_guard::Acknowledge;
 
-AcknowledgeButton::AcknowledgeButton(ros::NodeHandle node, int button)
-    : node_(node), button_(button), subscriber_(node.subscribe("warning", 1, &AcknowledgeButton::onWarning, this)) {}
-
-void AcknowledgeButton::update(const std::vector<int>& buttons) {
-  const auto index = static_cast<std::size_t>(button_);
-  const bool down = button_ >= 0 && index < buttons.size() && buttons[index] != 0;
+void JoyGuide::update(const std::vector<int>& buttons) {
+  const auto index = static_cast<std::size_t>(acknowledge_button_);
+  const bool down = acknowledge_button_ >= 0 && index < buttons.size() && buttons[index] != 0;
   const bool pressed = down && !std::exchange(down_, down);
   down_ = down;
-  if (pressed && warning_ && !warning_->mesh_id.empty() && idle()) call();
+  if (pressed && warning_ && !warning_->mesh_id.empty() && idle()) acknowledge();
 }
 
-bool AcknowledgeButton::idle() const {
+bool JoyGuide::idle() const {
   return !call_.valid() || call_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
 // The operator means the workpiece that he was warned of, not one that is warned of by the time the call arrives.
-void AcknowledgeButton::call() {
-  const std::string guard = ros::names::parentNamespace(subscriber_.getTopic());
+void JoyGuide::acknowledge() {
+  const std::string guard = ros::names::parentNamespace(warning_subscriber_.getTopic());
   auto client = node_.serviceClient<Acknowledge>(ros::names::append(guard, "acknowledge"));
   Acknowledge acknowledge;
   acknowledge.request.mesh_id = warning_->mesh_id;
@@ -85,7 +82,9 @@ void AcknowledgeButton::call() {
 
 JoyGuide::JoyGuide(ros::NodeHandle node, const Joystick::Options& options, int acknowledge_button)
     : joystick_(options),
-      acknowledge_button_(node, acknowledge_button),
+      node_(node),
+      acknowledge_button_(acknowledge_button),
+      warning_subscriber_(node.subscribe("warning", 1, &JoyGuide::onWarning, this)),
       subscriber_(node.subscribe("joy", 1, &JoyGuide::onJoy, this)) {
   ROS_INFO("guide the tool with the device that publishes %s", subscriber_.getTopic().c_str());
 }
@@ -101,7 +100,7 @@ void JoyGuide::move(GuidedTip& tip, double dt) const {
 void JoyGuide::release() { joystick_.ignoreUntil(rosNow() + kBacklog); }
 
 void JoyGuide::onJoy(const sensor_msgs::Joy::ConstPtr& joy) {
-  acknowledge_button_.update(joy->buttons);
+  update(joy->buttons);
   try {
     joystick_.setAxes(joy->axes, rosNow());  // the device may use another clock
   } catch (const sweep_guard_core::InvalidInput& error) {

@@ -16,31 +16,9 @@
 
 namespace sweep_guard_simulation {
 
-/// Calls `acknowledge` of the guard whose warnings arrive on the topic `warning` when a button of an input device goes
-/// down.
-class AcknowledgeButton {
- public:
-  /// @param button  index in the messages of the device; -1: none
-  AcknowledgeButton(ros::NodeHandle node, int button);
-
-  /// Takes the buttons of a message of the device. Does not wait for the guard's answer, and does nothing while a call
-  /// runs.
-  void update(const std::vector<int>& buttons);
-
- private:
-  void onWarning(const sweep_guard::Warning::ConstPtr& warning) { warning_ = warning; }
-  bool idle() const;
-  void call();
-
-  ros::NodeHandle node_;
-  int button_;
-  bool down_ = false;
-  ros::Subscriber subscriber_;
-  sweep_guard::Warning::ConstPtr warning_;  // newest
-  std::future<void> call_;
-};
-
-/// Guides a tip by the messages of an input device on the topic `joy`, and acknowledges warnings by one of its buttons.
+/// Guides a tip by the messages of an input device on the topic `joy`. When one of its buttons goes down, calls
+/// `acknowledge` of the guard whose warnings arrive on the topic `warning`: does not wait for the answer, and does nothing
+/// while a call runs.
 class JoyGuide {
  public:
   /// @param acknowledge_button  index in the messages of the device; -1: none
@@ -52,10 +30,19 @@ class JoyGuide {
   void release();
 
  private:
+  void onWarning(const sweep_guard::Warning::ConstPtr& warning) { warning_ = warning; }
   void onJoy(const sensor_msgs::Joy::ConstPtr& joy);
+  void update(const std::vector<int>& buttons);
+  bool idle() const;
+  void acknowledge();
 
   Joystick joystick_;
-  AcknowledgeButton acknowledge_button_;
+  ros::NodeHandle node_;
+  int acknowledge_button_;
+  bool down_ = false;  // the button
+  ros::Subscriber warning_subscriber_;
+  sweep_guard::Warning::ConstPtr warning_;  // newest
+  std::future<void> call_;
   ros::Subscriber subscriber_;
 };
 

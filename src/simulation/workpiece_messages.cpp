@@ -111,10 +111,7 @@ std::optional<ElasticWorkpiece> makeElasticWorkpiece(sweep_guard_ros::ParameterR
 
 void setToolOf(const std::string& guard, const std::string& id, ElasticWorkpiece& workpiece) {
   const sweep_guard_ros::Parameters parameters = sweep_guard_ros::loadParameters(ros::NodeHandle(guard));
-  sweep_guard_core::ForceLaw law = parameters.interaction.law;
-  const auto own = parameters.interaction.stiffness_of.find(id);
-  if (own != parameters.interaction.stiffness_of.end()) law.stiffness = own->second;
-  workpiece.setTool(*parameters.tool, law);
+  workpiece.setTool(*parameters.tool, parameters.interaction.lawOf(id));
 }
 
 }  // namespace sweep_guard_simulation

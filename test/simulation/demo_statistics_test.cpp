@@ -13,10 +13,22 @@ namespace {
 using namespace sweep_guard_core::timeline;
 using std::chrono::milliseconds;
 
+using sweep_guard::ObjectContacts;
+
+// Of a sweep without a narrow phase.
+ObjectContacts contact(const std::string& id, const std::vector<std::uint32_t>& triangles,
+                       const std::vector<std::string>& links = {}) {
+  ObjectContacts object;
+  object.mesh_id = id;
+  object.triangles = triangles;
+  for (const std::string& link : links) object.impacts.emplace_back().tool_link = link;
+  return object;
+}
+
 class DemoStatisticsTest : public testing::Test {
  protected:
   void addPose(int ms, std::uint32_t sequence) { statistics_.addPose(at(ms), sequence); }
-  void addSweep(int start, int stamp, int received, const std::vector<ContactObject>& contacts = {}) {
+  void addSweep(int start, int stamp, int received, const std::vector<ObjectContacts>& contacts = {}) {
     statistics_.addContacts(at(start), at(stamp), at(received), contacts);
   }
 
@@ -89,9 +101,9 @@ TEST_F(DemoStatisticsTest, CountsGapsInTheSequence) {
 }
 
 TEST_F(DemoStatisticsTest, CountsContactsAndDistinctTriangles) {
-  addSweep(10, 10, 11, {{"a", {1, 2}, {}}, {"b", {1}, {}}});
-  addSweep(20, 20, 21, {{"a", {2, 3}, {}}});
-  addSweep(30, 30, 31, {{"a", {}, {}}});  // inside
+  addSweep(10, 10, 11, {contact("a", {1, 2}), contact("b", {1})});
+  addSweep(20, 20, 21, {contact("a", {2, 3})});
+  addSweep(30, 30, 31, {contact("a", {})});  // inside
   addSweep(40, 40, 41);
   EXPECT_EQ(statistics_.sweeps(), 4U);
   EXPECT_EQ(statistics_.contacts(), 3U);
@@ -101,8 +113,8 @@ TEST_F(DemoStatisticsTest, CountsContactsAndDistinctTriangles) {
 
 TEST_F(DemoStatisticsTest, CountsTheContactsOfEachLink) {
   EXPECT_FALSE(has(statistics_.summary(), "  of "));
-  addSweep(10, 10, 11, {{"a", {1}, {"elbow", "wrist"}}, {"b", {1}, {"wrist"}}});
-  addSweep(20, 20, 21, {{"a", {1}, {"wrist"}}});
+  addSweep(10, 10, 11, {contact("a", {1}, {"elbow", "wrist"}), contact("b", {1}, {"wrist"})});
+  addSweep(20, 20, 21, {contact("a", {1}, {"wrist"})});
   EXPECT_TRUE(has(statistics_.summary(),
                   "contacts              2\n  of elbow             1\n  of wrist             2\ntriangles touched"));
 }
@@ -142,7 +154,8 @@ TEST_F(DemoStatisticsTest, ReportsTheLeadsOfTheWarnings) {
 
 TEST_F(DemoStatisticsTest, WritesTheLiveLine) {
   addPose(10, 1);
-  statistics_.addContacts(at(10), at(10), sweep_guard_core::Time(std::chrono::microseconds(10400)), {{"a", {1}, {}}});
+  statistics_.addContacts(at(10), at(10), sweep_guard_core::Time(std::chrono::microseconds(10400)),
+                          {contact("a", {1})});
   EXPECT_EQ(statistics_.liveLine(milliseconds(12500), "CONTACT"),
             "12.5 s  poses 1  contacts 1  level CONTACT  latency p50 0.4 ms");
 }
@@ -165,7 +178,7 @@ TEST_F(DemoStatisticsTest, AContactThatMakesNoDentOrNoForceIsAFault) {
   statistics_.addDent(0.0);
   addSweep(10, 10, 11);
   EXPECT_FALSE(statistics_.fault());
-  addSweep(10, 10, 11, {{"workpiece", {3}, {}}});
+  addSweep(10, 10, 11, {contact("workpiece", {3})});
   EXPECT_TRUE(has(statistics_.fault().value(), "did not give way"));
   statistics_.addDent(0.01);
   EXPECT_TRUE(has(statistics_.fault().value(), "no force"));

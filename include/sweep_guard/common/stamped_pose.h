@@ -12,10 +12,10 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 /// Holds a covariance of such values, in this order.
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// A value at one time.
-template <typename Value>
+/// A value at one time, of either clock.
+template <typename Value, typename Stamp = Time>
 struct StampedValue {
-  Time stamp;
+  Stamp stamp;
   Value value;
 };
 

@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "sweep_guard/common/time.h"
+#include "sweep_guard/common/stamped_pose.h"
 
 namespace sweep_guard_core {
 
@@ -51,10 +51,7 @@ class PassivityController {
  private:
   static constexpr size_t kCapacity = 1024;
 
-  struct Sent {
-    double effort;
-    SteadyTime at;
-  };
+  using Sent = StampedValue<double, SteadyTime>;  // an effort
   const Sent& before(size_t newest) const { return ring_[(next_ + kCapacity - 1 - newest) % kCapacity]; }
   template <typename Visit>
   void visitActing(SteadyTime until, const Visit& visit) const;

@@ -38,6 +38,7 @@ Wrench interactionForce(const Interpenetration& found, const Eigen::Vector3d& ve
 struct InteractionOptions {
   ForceLaw law;
   std::map<std::string, double> stiffness_of;  ///< by id of the workpiece, in place of law.stiffness [N/m^3]
+  ForceLaw lawOf(const std::string& id) const;
 };
 
 /// What a tool and a workpiece have in common at one pose, and the force of the workpiece on the tool: the sums over

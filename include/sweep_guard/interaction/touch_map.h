@@ -50,13 +50,9 @@ class TouchMap {
   void touches(std::vector<ObjectTouches>& objects) const;
 
  private:
-  struct TouchCount {
-    std::uint32_t sweeps = 0;
-    float depth = 0.0F;
-  };
   struct Touched {
     std::shared_ptr<const Workpiece> workpiece;  // as swept last
-    std::vector<TouchCount> of_triangle;
+    std::vector<TriangleTouches> of_triangle;
     std::vector<std::uint32_t> triangles;  // those touched
     TriangleSet jump_triangles;            // those touched along a jump
 

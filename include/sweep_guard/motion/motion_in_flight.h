@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "sweep_guard/common/time.h"
+#include "sweep_guard/common/stamped_pose.h"
 #include "sweep_guard/motion/braking.h"
 
 namespace sweep_guard_core {
@@ -32,10 +32,7 @@ class MotionInFlight {
   void clear() { count_ = 0; }  ///< the robot has rested for longer than the window
 
  private:
-  struct Sent {
-    Twist twist_W;
-    SteadyTime sent;
-  };
+  using Sent = StampedValue<Twist, SteadyTime>;  // twist_W
   static size_t placeBefore(size_t next, size_t newest) { return (next + kCapacity - 1 - newest) % kCapacity; }
   const Sent& before(size_t newest) const { return ring_[placeBefore(next_, newest)]; }
   void joinNewest(SteadyTime until);

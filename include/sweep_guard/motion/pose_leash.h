@@ -34,10 +34,11 @@ class PoseLeash {
 
   /// What is known of the tool when a pose is to be sent.
   struct Observation {
-    Eigen::Isometry3d X_WT;  ///< newest pose
-    Duration age;            ///< of the tool pose, >= 0
-    Duration period;         ///< longest time between two poses that are sent, > 0
-    SteadyTime now;          ///< not before that of the last observation
+    Eigen::Isometry3d X_WT;                                     ///< newest pose
+    Duration age;                                               ///< of the tool pose, >= 0
+    Duration period;                                            ///< longest time between two poses that are sent, > 0
+    SteadyTime now;                                             ///< not before that of the last observation
+    Eigen::Isometry3d sent_WT = Eigen::Isometry3d::Identity();  ///< pose sent last; observe() fills it in
   };
 
   /// @throws InvalidInput  if an option is NaN or out of range
@@ -62,25 +63,19 @@ class PoseLeash {
   Eigen::Isometry3d rest(const Eigen::Isometry3d& sent_WT) const;
 
  private:
-  struct Sample {
-    SteadyTime at;
-    SteadyTime measured;  // when the tool was there
-    Eigen::Isometry3d X_WT;
-    Eigen::Isometry3d sent_WT;
-  };
   static constexpr size_t kSamples = 128;
 
   double between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const {
     return secondsBetween(a, b, options_.max_speed, options_.max_turn_rate);
   }
-  const Sample& before(size_t newest) const { return ring_[(next_ + kSamples - 1 - newest) % kSamples]; }
+  const Observation& before(size_t newest) const { return ring_[(next_ + kSamples - 1 - newest) % kSamples]; }
   void remember(const Eigen::Isometry3d& sent_WT);
   bool hasStood(const Eigen::Isometry3d& sent_WT) const;
   double approach(const Eigen::Isometry3d& sent_WT) const;
 
   const Options options_;
   const Duration lag_;  // time constant, at least kLeastLag
-  std::array<Sample, kSamples> ring_;
+  std::array<Observation, kSamples> ring_;
   size_t next_ = 0;
   size_t count_ = 0;
   Observation seen_{};

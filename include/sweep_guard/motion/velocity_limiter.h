@@ -35,16 +35,11 @@ class VelocityLimiter {
 
     double closing(const Eigen::Vector3d& v_W, double s) const { return turning * s - normal_W.dot(v_W); }
   };
-  // The output: v' and s.
-  struct Motion {
-    Eigen::Vector3d v_W;
-    double s;
-  };
 
   void collectRows(const Twist& command_W, const std::vector<FacingBall>& facing, const BrakingLimits& limits);
   void collectHalfSpaces(double speed);
-  Motion nearest(const Twist& command_W);
-  double largestScale(const Motion& motion, double tolerance) const;
+  Eigen::Vector4d nearest(const Twist& command_W);
+  double largestScale(const Eigen::Vector3d& v_W, double s, double tolerance) const;
 
   std::vector<Row> rows_;
   std::vector<HalfSpace4> half_spaces_;

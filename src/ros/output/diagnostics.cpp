@@ -204,9 +204,11 @@ void Diagnostics::workpieces(Status& status) const {
     status.add("inside of '" + workpiece->id + "'", open);
   }
   for (const std::string& id : parameters->attached) status.add("'" + id + "'", "attached to the tool");
-  const sweep_guard_core::WorkpieceSizes sizes = sweep_guard_core::workpieceSizes(workpieces, state_.distances.get());
-  if (!sizes.doubt.empty()) status.mergeSummary(DiagnosticStatus::WARN, sizes.doubt);
-  for (const auto& [id, size] : sizes.nearest) status.add("size of '" + id + "'", size);
+  const auto distances = state_.distances.get();
+  const std::string doubt = sweep_guard_core::doubtfulSizes(workpieces, distances);
+  if (!doubt.empty()) status.mergeSummary(DiagnosticStatus::WARN, doubt);
+  for (const auto& [id, size] : sweep_guard_core::workpieceSizes(workpieces, distances))
+    status.add("size of '" + id + "'", size);
   reportRefusal(state_.frames, "workpieces", status);
 }
 
