@@ -313,6 +313,70 @@ TEST_F(ParametersTest, JointsHaveOtherNamesInMessagesIfTheyAreGiven) {
   EXPECT_TRUE(has(refusal(node_), "tool/joint_names: no joint 'closing' moves the tool's links"));
 }
 
+std::string gripperWithJoint(const std::string& joint) {
+  const std::string name = "'opening'";
+  return std::string(kGripper).replace(kGripper.find(name), name.size(), "'" + joint + "'");
+}
+
+// The parameter server makes a group r1 of the key r1/opening, as of any other.
+TEST_F(ParametersTest, NamesOfJointsMayHaveSlashes) {
+  node_.setParam("tool/type", "urdf");
+  node_.setParam("tool/joint_states", true);
+  for (const std::string joint : {"opening", "r1/opening", "cell/r1/opening"}) {
+    ros::param::set("/robot_description", gripperWithJoint(joint));
+    node_.setParam("tool/joint_names/driver/" + joint, joint);
+    node_.setParam("tool/joint_timeouts/" + joint, 0.3);
+    const Parameters loaded = loadParameters(node_);
+    EXPECT_EQ(loaded.joint_names, (std::map<std::string, std::string>{{"driver/" + joint, joint}}));
+    EXPECT_EQ(loaded.joint_timeouts.count(joint), 1U) << joint;
+    node_.setParam("tool/joint_names/driver/" + joint, 1);
+    EXPECT_TRUE(has(refusal(node_), "tool/joint_names/driver/" + joint + " is 1, but must be a text"));
+    node_.deleteParam("tool/joint_names");
+    node_.deleteParam("tool/joint_timeouts");
+  }
+}
+
+TEST_F(ParametersTest, JointsWithSlashesAreHeldWhereTheyAreSet) {
+  node_.setParam("tool/type", "urdf");
+  node_.setParam("tool/links", std::vector<std::string>{"hand", "finger"});
+  for (const std::string joint : {"opening", "r1/opening", "cell/r1/opening"}) {
+    ros::param::set("/robot_description", gripperWithJoint(joint));
+    node_.setParam("tool/joints/" + joint, 0.3);
+    EXPECT_EQ(loadParameters(node_).fixed_joints, (std::map<std::string, double>{{joint, 0.3}}));
+    node_.setParam("tool/joints/" + joint, "wide");
+    EXPECT_TRUE(has(refusal(node_), "tool/joints/" + joint + " is wide, but must be a finite number"));
+    node_.deleteParam("tool/joints");
+  }
+}
+
+// YAML's key /left/drill would be a parameter beside the node's.
+TEST_F(ParametersTest, IdsMayHaveSlashesAndTheOneAtTheirFrontIsNotWritten) {
+  using Ids = std::set<std::string>;
+  for (const std::string id : {"drill", "left/drill", "left/sweep_guard/open"}) {
+    node_.setParam("workpieces/" + id + "/open", true);
+    node_.setParam("interaction/stiffness_of/" + id, 1e5);
+    const Parameters loaded = loadParameters(node_);
+    EXPECT_EQ(loaded.open_ids, (Ids{id, "/" + id}));
+    EXPECT_EQ(loaded.interaction.stiffness_of, (std::map<std::string, double>{{id, 1e5}, {"/" + id, 1e5}}));
+    node_.setParam("workpieces/" + id + "/open", 1);
+    EXPECT_TRUE(has(refusal(node_), "workpieces/" + id + "/open is 1, but must be a group of groups"));
+    node_.deleteParam("workpieces");
+    node_.deleteParam("interaction/stiffness_of");
+  }
+}
+
+TEST_F(ParametersTest, GroupsWithoutAValueAreRefused) {
+  XmlRpc::XmlRpcValue empty;
+  empty.begin();  // makes it a group
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"tool/joints", "r1"}, {"tool/joint_names", "cell/r1"}, {"workpieces", "curtain"}};
+  for (const auto& [key, name] : cases) {
+    node_.setParam(key + "/" + name, empty);
+    EXPECT_TRUE(has(refusal(node_), "/guarded/" + key + "/" + name + " is "));
+    node_.deleteParam(key);
+  }
+}
+
 TEST_F(ParametersTest, TheSlowestJointDecidesHowOldAPoseMayBe) {
   ros::param::set("/robot_description", kGripper);
   node_.setParam("tool/type", "urdf");
@@ -526,6 +590,30 @@ TEST_F(ParametersTest, AreRefusedByNameValueAndRange) {
   refused("timing/marker_rate", 0, "0.1 to 100");
   refused("limits/max_triangles", 0, "1 to 10000000");
   refused("timing", 3, "a group");
+}
+
+// YAML 1.1 wants a point, and a sign of the exponent.
+TEST_F(ParametersTest, ATextThatIsANumberIsRefusedWithTheNumberThatYamlWants) {
+  const auto refusalOf = [&](const std::string& key, const auto& value) {
+    node_.setParam(key, value);
+    const std::string message = refusal(node_);
+    EXPECT_TRUE(has(message, "/guarded/" + key + " is "));
+    node_.deleteParam(key);
+    return message;
+  };
+  EXPECT_TRUE(
+      has(refusalOf("tool/radius", "5e-3"), "1e-06 to 100; '5e-3' is a text: YAML wants 5.0e-3, without quotes"));
+  EXPECT_TRUE(has(refusalOf("limits/max_speed", "1E3"), "'1E3' is a text: YAML wants 1.0E+3,"));
+  EXPECT_TRUE(has(refusalOf("limits/max_speed", "1.5e3"), "'1.5e3' is a text: YAML wants 1.5e+3,"));
+  EXPECT_TRUE(has(refusalOf("tool/length", "0.3"), "'0.3' is a text: YAML wants 0.3,"));
+  EXPECT_TRUE(has(refusalOf("tool/length", "+.3"), "'+.3' is a text: YAML wants 0.3,"));
+  EXPECT_TRUE(has(refusalOf("tool/joints/opening", "-.5e-1"), "'-.5e-1' is a text: YAML wants -0.5e-1,"));
+  EXPECT_TRUE(has(refusalOf("timing/mesh_timeout", "inf"), "'inf' is a text: YAML wants .inf,"));
+  EXPECT_TRUE(has(refusalOf("tool/mesh_depth", "3"), "0 to 16; '3' is a text: YAML wants 3,"));
+  EXPECT_FALSE(has(refusalOf("tool/mesh_depth", "3e0"), "is a text"));
+  EXPECT_FALSE(has(refusalOf("tool/radius", "wide"), "is a text"));
+  EXPECT_FALSE(has(refusalOf("tool/radius", -1.0), "is a text"));
+  EXPECT_FALSE(has(refusalOf("tool/radius", "nan"), "is a text"));
 }
 
 // A valid value may be out of range for the value of another key.

@@ -18,13 +18,6 @@ namespace {
 
 constexpr double kMaxPosition = 1e6;
 
-// YAML 1.1 takes 1e-06 for a text, and 1.0e-06 for a number.
-std::string yamlNumber(std::string text) {
-  const size_t exponent = text.find('e');
-  if (exponent != std::string::npos && text.find('.') == std::string::npos) text.insert(exponent, ".0");
-  return text;
-}
-
 }  // namespace
 
 std::string shown(const ParameterValue& value) {
@@ -45,7 +38,7 @@ double ParameterReader::number(const std::string& key, double fallback, const Ra
   if (!get(key, value)) value = fallback;
   const Range& narrowest = narrowed ? *narrowed : range;
   if (!within(toNumber(value), narrowest))
-    refuse(key, value, shown(narrowest) + (narrowed ? std::string(": ") + narrowed->note : ""));
+    refuse(key, value, shown(narrowest) + (narrowed ? std::string(": ") + narrowed->note : "") + noteOnText(value));
   describe(
       {key, toNumber(value), fallback, range.lowest, range.highest, {}, sweep_guard_ros::described(range), effect});
   return toNumber(value);
@@ -55,7 +48,10 @@ int ParameterReader::integer(const std::string& key, int fallback, int lowest, i
   XmlRpc::XmlRpcValue value;
   if (!get(key, value)) value = fallback;
   const std::string wanted = "an integer" + shown(lowest, highest);
-  if (!within(value, lowest, highest)) refuse(key, value, wanted);
+  if (!within(value, lowest, highest)) {
+    const bool is_integer = toInteger(value).getType() == XmlRpc::XmlRpcValue::TypeInt;
+    refuse(key, value, wanted + (is_integer ? noteOnText(value) : ""));
+  }
   const int integer = static_cast<int>(value);
   describe({key, integer, fallback, static_cast<double>(lowest), static_cast<double>(highest), {}, wanted, effect});
   return integer;
@@ -201,67 +197,62 @@ std::vector<std::vector<std::string>> ParameterReader::groups(const std::string&
   return groups;
 }
 
+std::map<std::string, XmlRpc::XmlRpcValue> ParameterReader::entries(const std::string& key, const std::string& wanted) {
+  XmlRpc::XmlRpcValue group;
+  if (!get(key, group)) return {};
+  if (group.getType() != XmlRpc::XmlRpcValue::TypeStruct) refuse(key, group, wanted);
+  auto entries = flattened(group);
+  for (const auto& [name, entry] : entries) read_.insert(std::string(key).append("/").append(name));
+  return entries;
+}
+
 std::map<std::string, double> ParameterReader::numbers(const std::string& key, const std::string& effect,
                                                        const std::optional<Range>& range) {
-  XmlRpc::XmlRpcValue value;
   const std::string wanted = "a group of numbers, or {}";
   std::map<std::string, double> numbers;
-  std::string entries;
-  if (get(key, value)) {
-    if (value.getType() != XmlRpc::XmlRpcValue::TypeStruct) refuse(key, value, wanted);
-    for (auto& [name, entry] : value) {
-      const std::string entry_key = std::string(key).append("/").append(name);
-      read_.insert(entry_key);
-      const double number = toNumber(entry);
-      if (!std::isfinite(number)) refuse(entry_key, entry, "a finite number");
-      if (range && !within(number, *range)) refuse(entry_key, entry, shown(*range));
-      numbers[name] = number;
-      entries += (entries.empty() ? "" : ", ") + name + ": " + shown(ParameterValue(number));
-    }
+  std::vector<std::string> shown_entries;
+  for (const auto& [name, entry] : entries(key, wanted)) {
+    const std::string entry_key = std::string(key).append("/").append(name);
+    const double number = toNumber(entry);
+    if (!std::isfinite(number)) refuse(entry_key, entry, "a finite number" + noteOnText(entry));
+    if (range && !within(number, *range)) refuse(entry_key, entry, shown(*range));
+    numbers[name] = number;
+    shown_entries.push_back(name + ": " + shown(ParameterValue(number)));
   }
-  describe({key, "{" + entries + "}", std::string("{}"), 0.0, 0.0, {}, wanted, effect});
+  describe({key, braced(shown_entries), std::string("{}"), 0.0, 0.0, {}, wanted, effect});
   return numbers;
 }
 
 std::map<std::string, std::string> ParameterReader::textsByName(const std::string& key, const std::string& effect) {
-  XmlRpc::XmlRpcValue value;
   const std::string wanted = "a group of texts, or {}";
   std::map<std::string, std::string> texts;
-  std::string entries;
-  if (get(key, value)) {
-    if (value.getType() != XmlRpc::XmlRpcValue::TypeStruct) refuse(key, value, wanted);
-    for (auto& [name, entry] : value) {
-      const std::string entry_key = std::string(key).append("/").append(name);
-      read_.insert(entry_key);
-      if (entry.getType() != XmlRpc::XmlRpcValue::TypeString) refuse(entry_key, entry, "a text");
-      texts[name] = static_cast<std::string>(entry);
-      if (texts[name].empty()) refuse(entry_key, entry, "a text, not empty");
-      entries += (entries.empty() ? "" : ", ") + name + ": " + texts[name];
-    }
+  std::vector<std::string> shown_entries;
+  for (const auto& [name, entry] : entries(key, wanted)) {
+    const std::string entry_key = std::string(key).append("/").append(name);
+    if (entry.getType() != XmlRpc::XmlRpcValue::TypeString) refuse(entry_key, entry, "a text");
+    texts[name] = static_cast<std::string>(entry);
+    if (texts[name].empty()) refuse(entry_key, entry, "a text, not empty");
+    shown_entries.push_back(name + ": " + texts[name]);
   }
-  describe({key, "{" + entries + "}", std::string("{}"), 0.0, 0.0, {}, wanted, effect});
+  describe({key, braced(shown_entries), std::string("{}"), 0.0, 0.0, {}, wanted, effect});
   return texts;
 }
 
 std::map<std::string, bool> ParameterReader::flagsOf(const std::string& key, const std::string& flag,
                                                      const std::string& effect) {
-  XmlRpc::XmlRpcValue value;
   const std::string wanted = "a group of groups " + grouped({flag}, {"true or false"}) + ", or {}";
   std::map<std::string, bool> flags;
-  std::string entries;
-  if (get(key, value)) {
-    if (value.getType() != XmlRpc::XmlRpcValue::TypeStruct) refuse(key, value, wanted);
-    for (auto& [name, group] : value) {
-      const std::string group_key = std::string(key).append("/").append(name);
-      const bool has_flag = group.getType() == XmlRpc::XmlRpcValue::TypeStruct && group.size() == 1 &&
-                            group.hasMember(flag) && group[flag].getType() == XmlRpc::XmlRpcValue::TypeBoolean;
-      if (!has_flag) refuse(group_key, group, wanted);
-      read_.insert(group_key + "/" + flag);
-      flags[name] = static_cast<bool>(group[flag]);
-      entries += (entries.empty() ? "" : ", ") + name + ": " + grouped({flag}, {flags[name] ? "true" : "false"});
-    }
+  std::vector<std::string> shown_entries;
+  for (const auto& [path, entry] : entries(key, wanted)) {
+    const size_t slash = path.size() - std::min(path.size(), flag.size() + 1);
+    const bool is_flag = slash > 0 && path.compare(slash, std::string::npos, "/" + flag) == 0 &&
+                         entry.getType() == XmlRpc::XmlRpcValue::TypeBoolean;
+    if (!is_flag) refuse(std::string(key).append("/").append(path), entry, wanted);
+    const std::string name = path.substr(0, slash);
+    flags[name] = static_cast<bool>(entry);
+    shown_entries.push_back(name + ": " + grouped({flag}, {flags[name] ? "true" : "false"}));
   }
-  describe({key, "{" + entries + "}", std::string("{}"), 0.0, 0.0, {}, wanted, effect});
+  describe({key, braced(shown_entries), std::string("{}"), 0.0, 0.0, {}, wanted, effect});
   return flags;
 }
 
@@ -288,7 +279,7 @@ Eigen::Vector3d ParameterReader::position(const std::string& key, const Eigen::V
   if (value.getType() != XmlRpc::XmlRpcValue::TypeArray || value.size() != 3) refuse(key, value, wanted);
   Eigen::Vector3d position(toNumber(value[0]), toNumber(value[1]), toNumber(value[2]));
   for (const double coordinate : sweep_guard_core::xyz(position)) {
-    if (!within(coordinate, range)) refuse(key, value, wanted);
+    if (!within(coordinate, range)) refuse(key, value, wanted + noteOnText(value));
   }
   return position;
 }

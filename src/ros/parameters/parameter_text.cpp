@@ -1,12 +1,65 @@
 #include "ros/parameters/parameter_text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 #include "common/number_text.h"
 
 namespace sweep_guard_ros {
+namespace {
+
+void flatten(const XmlRpc::XmlRpcValue& group, const std::string& prefix,
+             std::map<std::string, XmlRpc::XmlRpcValue>& entries) {
+  for (const auto& [name, value] : group) {
+    if (value.getType() == XmlRpc::XmlRpcValue::TypeStruct && value.size() > 0) {
+      flatten(value, prefix + name + "/", entries);
+    } else {
+      entries[prefix + name] = value;
+    }
+  }
+}
+
+// Returns what YAML takes for the number that the text says; empty if it says none.
+std::string yamlOf(std::string text) {
+  if (text.compare(0, 1, "+") == 0) text.erase(0, 1);
+  const auto number = sweep_guard_core::parseNumber<double>(text);
+  if (!number || std::isnan(*number)) return "";
+  if (std::isinf(*number)) return *number > 0.0 ? ".inf" : "-.inf";
+  return yamlNumber(std::move(text));
+}
+
+}  // namespace
+
+std::map<std::string, XmlRpc::XmlRpcValue> flattened(const XmlRpc::XmlRpcValue& group) {
+  std::map<std::string, XmlRpc::XmlRpcValue> entries;
+  flatten(group, "", entries);
+  return entries;
+}
+
+std::string yamlNumber(std::string text) {
+  const size_t point = text.find('.');
+  if (point != std::string::npos && text.find_first_of("0123456789") > point) text.insert(point, "0");
+  const size_t exponent = text.find_first_of("eE");
+  if (exponent == std::string::npos) return text;
+  if (text.find_first_of("+-", exponent) == std::string::npos) text.insert(exponent + 1, "+");
+  if (point == std::string::npos) text.insert(exponent, ".0");
+  return text;
+}
+
+std::string noteOnText(const XmlRpc::XmlRpcValue& value) {
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeArray) {
+    std::string note;
+    for (int i = 0; note.empty() && i < value.size(); ++i) note = noteOnText(value[i]);
+    return note;
+  }
+  if (value.getType() != XmlRpc::XmlRpcValue::TypeString) return "";
+  const std::string text = static_cast<std::string>(value);
+  const std::string yaml = yamlOf(text);
+  return yaml.empty() ? "" : "; '" + text + "' is a text: YAML wants " + yaml + ", without quotes";
+}
 
 double toNumber(const XmlRpc::XmlRpcValue& value) {
   if (value.getType() == XmlRpc::XmlRpcValue::TypeDouble) return static_cast<double>(value);
@@ -64,10 +117,12 @@ XmlRpc::XmlRpcValue toInteger(const XmlRpc::XmlRpcValue& value) {
 
 std::string bracketed(const std::vector<std::string>& words) { return "[" + listed(words) + "]"; }
 
+std::string braced(const std::vector<std::string>& entries) { return "{" + listed(entries) + "}"; }
+
 std::string grouped(const std::vector<std::string>& names, const std::vector<std::string>& texts) {
   std::vector<std::string> entries;
   for (size_t i = 0; i < names.size(); ++i) entries.push_back(names[i] + ": " + texts[i]);
-  return "{" + listed(entries) + "}";
+  return braced(entries);
 }
 
 std::vector<std::string> textsOf(XmlRpc::XmlRpcValue& group, const std::vector<std::string>& names) {

@@ -74,12 +74,15 @@ sweep_guard_core::InteractionOptions readInteraction(ParameterReader& read) {
   sweep_guard_core::ForceLaw& law = options.law;
   law.stiffness = read.live().number("interaction/stiffness", law.stiffness, {0.0, kMaxStiffness, "N/m^3"},
                                      "~interaction: force per volume that tool and workpiece have in common.");
-  options.stiffness_of = read.numbers("interaction/stiffness_of",
-                                      "~interaction: the stiffness [N/m^3] of some workpieces by their id, in place of "
-                                      "interaction/stiffness; 0 to 1e12.");
-  for (const auto& [id, stiffness] : options.stiffness_of) {
-    if (stiffness >= 0.0 && stiffness <= kMaxStiffness) continue;
-    throw sweep_guard_core::InvalidInput("parameter interaction/stiffness_of/" + id + " must be 0 to 1e12 N/m^3");
+  for (const auto& [id, stiffness] :
+       read.numbers("interaction/stiffness_of",
+                    "~interaction: the stiffness [N/m^3] of some workpieces by their id, in place of "
+                    "interaction/stiffness; 0 to 1e12.")) {
+    if (!(stiffness >= 0.0 && stiffness <= kMaxStiffness)) {
+      throw sweep_guard_core::InvalidInput("parameter interaction/stiffness_of/" + id + " must be 0 to 1e12 N/m^3");
+    }
+    options.stiffness_of[id] = stiffness;
+    options.stiffness_of.emplace("/" + id, stiffness);  // YAML's key of an id with a slash at its front has none
   }
   law.damping =
       read.live().number("interaction/damping", law.damping, {0.0, 1000.0, "s/m"},
@@ -266,7 +269,7 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
                     "What is known of some workpieces by their id, as in {curtain: {open: true}}. open: the surface "
                     "has no inside, so "
                     "the guard does not test for it and does not report INSIDE_UNTESTED.")) {
-    if (is_open) parameters.open_ids.insert(id);
+    if (is_open) parameters.open_ids.insert({id, "/" + id});  // YAML's key of an id with a slash at its front has none
   }
   parameters.other_tools = read.nodes(
       "other_tools",

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "ros/tool/xacro_check.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_ros {
@@ -179,6 +180,7 @@ std::string checkedXml(const std::string& urdf, LinkGeometry geometry, std::map<
   }
   XMLElement* const robot = document.FirstChildElement("robot");
   if (robot == nullptr) throw InvalidInput("no element <robot>");
+  requireNoXacro(*robot);
   for (XMLElement* link = robot->FirstChildElement("link"); link != nullptr; link = link->NextSiblingElement("link")) {
     found[nameOf(*link)] = readElements(*link, geometry);
   }

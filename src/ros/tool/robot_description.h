@@ -16,7 +16,7 @@ namespace sweep_guard_ros {
 /// geometry that a tool is made of, and passes over the other kind.
 class RobotDescription {
  public:
-  /// @throws sweep_guard_core::InvalidInput if the text is no XML, is larger than 8 MiB or is refused by urdfdom; if a
+  /// @throws sweep_guard_core::InvalidInput if the text is no XML, is larger than 8 MiB, is for xacro or is refused by urdfdom; if a
   ///     collision or visual that is read has no geometry; if a link has two parents; or if it is not connected to the root link
   explicit RobotDescription(const std::string& urdf, LinkGeometry geometry = LinkGeometry::kCollision);
 

@@ -89,6 +89,7 @@ class ParameterReader {
   /// Reads a list of names of other nodes, each once, and resolves them as the node itself does; [] if not set.
   std::vector<std::string> nodes(const std::string& key, const std::string& effect = "");
   /// Reads a group of finite numbers by their names in the group, each within a range if there is one; empty if not set.
+  /// In this and the next two, a name may have slashes, of which the parameter server makes groups within the group.
   std::map<std::string, double> numbers(const std::string& key, const std::string& effect = "",
                                         const std::optional<Range>& range = {});
   /// Reads a group of texts, none of them empty, by their names in the group; empty if not set.
@@ -122,6 +123,7 @@ class ParameterReader {
   std::string resolved(const std::string& key, const std::string& name) const;
   bool isGroup(const std::string& key) const;
   bool get(const std::string& key, XmlRpc::XmlRpcValue& value);
+  std::map<std::string, XmlRpc::XmlRpcValue> entries(const std::string& key, const std::string& wanted);
   bool getList(const std::string& key, const std::string& wanted, XmlRpc::XmlRpcValue& list);
   [[noreturn]] void refuse(const std::string& key, const XmlRpc::XmlRpcValue& value, const std::string& wanted) const;
 
