@@ -13,6 +13,7 @@ namespace sweep_guard_core {
 namespace {
 
 constexpr double kMaxPosition = 1e4;  // [rad or m]
+constexpr double kMaxTurned = 1e10;   // [rad], of a continuous joint: a double resolves 2e-6 rad there
 constexpr Duration kForgetPublisher = std::chrono::seconds(1);
 
 // Tracks of different types do the same:
@@ -60,9 +61,10 @@ void JointTimeline::check(const std::string& publisher, Time stamp, const std::v
   for (size_t i = 0; i < positions.size(); ++i) {
     if (!expects(positions[i].variable)) continue;
     const std::string& name = tree_.variables()[positions[i].variable].name;
-    if (!(std::abs(positions[i].value) <= kMaxPosition)) {
-      throw InvalidInput("joint '" + name + "' is at " + shortText(positions[i].value) +
-                         ", but must be within 1e4 rad or m");
+    const bool continuous = tree_.variables()[positions[i].variable].continuous;
+    if (!(std::abs(positions[i].value) <= (continuous ? kMaxTurned : kMaxPosition))) {
+      throw InvalidInput("joint '" + name + "' is at " + shortText(positions[i].value) + ", but must be within " +
+                         (continuous ? "1e10 rad" : "1e4 rad or m"));
     }
     for (size_t k = 0; k < i; ++k) {
       if (positions[k].variable == positions[i].variable) throw InvalidInput("joint '" + name + "' is named twice");

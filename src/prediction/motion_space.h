@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "sweep_guard/common/stamped_pose.h"
+#include "sweep_guard/kinematics/joint_limits.h"
 #include "sweep_guard/prediction/pose_predictor.h"
 
 namespace sweep_guard_core {
@@ -86,8 +87,9 @@ struct JointSpace {
 
   double max_speed;    ///< [rad/s or m/s], > 0
   double prior_speed;  ///< from which on motion counts in full [rad/s or m/s], > 0
-  double lower = -std::numeric_limits<double>::infinity();
-  double upper = std::numeric_limits<double>::infinity();
+  static constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+  double lower = -kUnbounded;
+  double upper = kUnbounded;
 
   static Vector displacementOf(const Sample& from, const Sample& to) { return Vector(to.value - from.value); }
   static Sample displacedSample(const Sample& from, const Vector& moved) { return {from.stamp, from.value + moved[0]}; }
@@ -97,10 +99,13 @@ struct JointSpace {
   Vector limitedTo(const Vector& moved, double seconds) const {
     return Vector(std::clamp(moved[0], -max_speed * seconds, max_speed * seconds));
   }
-  /// Stops at the limits; a joint beyond one may stay, but goes no farther.
+  /// Stops at the limits, except at one that the joint contradicts (limitTolerance()): it goes on as if there were none.
   Vector possible(const Sample& from, const Vector& moved, double seconds) const {
     const double to = from.value + limitedTo(moved, seconds)[0];
-    return Vector(std::clamp(to, std::min(lower, from.value), std::max(upper, from.value)) - from.value);
+    const double tolerance = limitTolerance(lower, upper);
+    const double least = from.value < lower - tolerance ? -kUnbounded : std::min(lower, from.value);
+    const double most = from.value > upper + tolerance ? kUnbounded : std::max(upper, from.value);
+    return Vector(std::clamp(to, least, most) - from.value);
   }
   static std::array<int, 1> degreesOf(const PredictorOptions& options) {
     return {*std::max_element(options.degree.begin(), options.degree.end())};

@@ -161,6 +161,28 @@ TEST_F(JointTimelineTest, RefusesWhatIsNoPosition) {
   EXPECT_NE(refusalOf(timeline_, "driver", 1.0, {{1, 0.0}, {1, 0.0}}).find("named twice"), std::string::npos);
 }
 
+// A spindle whose driver counts its turns, for years.
+TEST_F(JointTimelineTest, AContinuousJointMayCountItsTurnsOn) {
+  for (const double start : {9990.0, -2e4, 3e9}) {
+    timeline_.reset();
+    for (int i = 0; i <= 20; ++i) {
+      const double turned = start + std::copysign(2.0 * i, start);
+      EXPECT_EQ(refusalOf(timeline_, "driver", 1.0 + 0.01 * i, {{0, 0.0}, {1, 0.0}, {2, turned}}), "") << turned;
+    }
+    const std::vector<Stamped> states = allOf(timeline_);
+    ASSERT_EQ(states.size(), 21U);
+    EXPECT_EQ(states[0].state.positions[2], start);
+    EXPECT_NEAR(states[20].state.positions[2], start + std::copysign(40.0, start), 1e-5);
+  }
+}
+
+TEST_F(JointTimelineTest, RefusesTurnsThatNoNumberResolves) {
+  for (const double turned : {1.1e10, -1e227, HUGE_VAL}) {
+    EXPECT_NE(refusalOf(timeline_, "driver", 1.0, {{2, turned}}).find("but must be within 1e10 rad"),
+              std::string::npos);
+  }
+}
+
 TEST_F(JointTimelineTest, AMessageThatIsRefusedHasNoEffect) {
   timeline_.add("driver", at(1.0), {{0, 0.0}, {1, 0.0}, {2, 0.0}});
   EXPECT_NE(refusalOf(timeline_, "driver", 1.1, {{0, 1.0}, {1, std::nan("")}}), "");

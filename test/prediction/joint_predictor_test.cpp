@@ -88,16 +88,43 @@ TEST(JointPredictorTest, AJointStopsAtItsLimits) {
   }
 }
 
-// A limit of the description that the joint does not keep.
-TEST(JointPredictorTest, AJointBeyondALimitGoesNoFartherButMayReturn) {
-  JointPredictor out(optionsOf("constant_velocity"), {{"", -1.0, 1.0}});
+struct Course {
+  JointVariable joint;
+  double start;
+  double speed;
+};
+
+// Half a second after half a second of steady motion.
+double positionAfter(const std::string& name, const Course& course) {
+  JointPredictor predictor(optionsOf(name), {course.joint});
   followJoints(
-      out, [](double t) { return std::vector<double>{1.2 + 0.4 * t}; }, 0.0, 0.5);
-  EXPECT_EQ(predicted(out, milliseconds(500)).positions[0], 1.2 + 0.4 * 0.5);
-  JointPredictor back(optionsOf("constant_velocity"), {{"", -1.0, 1.0}});
-  followJoints(
-      back, [](double t) { return std::vector<double>{1.4 - 0.4 * t}; }, 0.0, 0.5);
-  EXPECT_NEAR(predicted(back, milliseconds(500)).positions[0], 1.0, 1e-9);
+      predictor, [&](double t) { return std::vector<double>{course.start + course.speed * t}; }, 0.0, 0.5);
+  return predicted(predictor, milliseconds(500)).positions[0];
+}
+
+// Limits of the description that are narrower than those of the arm.
+TEST(JointPredictorTest, AJointThatContradictsALimitGoesOnAsIfItHadNone) {
+  for (const char* name : {"constant_velocity", "polynomial", "direct"}) {
+    EXPECT_NEAR(positionAfter(name, {{"", -1.0, 1.0}, 1.2, 0.4}), 1.6, 1e-9) << name;
+    EXPECT_NEAR(positionAfter(name, {{"", 0.0, 0.0}, 0.3, 0.5}), 0.8, 1e-9) << name;
+    EXPECT_NEAR(positionAfter(name, {sliding(0.1, 0.2), 0.08, -0.1}), -0.02, 1e-9) << name;
+  }
+}
+
+TEST(JointPredictorTest, AJointThatIsHardlyBeyondALimitGoesNoFarther) {
+  for (const char* name : {"constant_velocity", "polynomial", "direct"}) {
+    EXPECT_NEAR(positionAfter(name, {{"", -1.0, 1.0}, 0.8009, 0.4}), 1.0009, 1e-9) << name;
+    EXPECT_NEAR(positionAfter(name, {{"", 0.0, 0.0}, -0.2491, 0.5}), 0.0009, 1e-9) << name;
+    EXPECT_NEAR(positionAfter(name, {sliding(0.1, 0.2), 0.1491, -0.1}), 0.0991, 1e-9) << name;
+  }
+}
+
+TEST(JointPredictorTest, AJointThatIsBeyondALimitMayReturnAndStopsAtTheOther) {
+  for (const char* name : {"constant_velocity", "polynomial", "direct"}) {
+    EXPECT_NEAR(positionAfter(name, {{"", -1.0, 1.0}, 1.4, -0.4}), 1.0, 1e-9) << name;
+    EXPECT_NEAR(positionAfter(name, {{"", -0.1, 0.1}, 0.9, -1.4}), -0.1, 1e-9) << name;
+    EXPECT_NEAR(positionAfter(name, {sliding(0.1, 0.2), 0.05, 0.05}), 0.1, 1e-9) << name;
+  }
 }
 
 TEST(JointPredictorTest, AContinuousJointGoesOnWhereItsPositionsWrap) {

@@ -38,7 +38,10 @@ class ArticulatedToolTest : public testing::Test {
     message.position.resize(names.size(), 0.0);
     return message;
   }
-  void add(double seconds, const std::vector<std::string>& names) { tool_->add("/arm", at(seconds, names)); }
+  void add(double seconds, const std::vector<std::string>& names) { tool_->add("/arm", at(seconds, names), {}); }
+  static sweep_guard_core::SteadyTime steadyAt(double seconds) {
+    return sweep_guard_core::SteadyTime() + sweep_guard_core::fromSeconds(seconds);
+  }
   std::string silence(double seconds) const {
     return tool_->silence(sweep_guard_core::Time() + sweep_guard_core::fromSeconds(seconds));
   }
@@ -94,6 +97,29 @@ TEST_F(ArticulatedToolTest, AJointIsShownWithItsNameInMessages) {
             "joints 'shoulder' ('j1' in messages), 'elbow' ('j2' in messages), 'jaw' have not been published yet");
   add(1.0, {"j1", "jaw"});
   EXPECT_EQ(silence(1.0), "joint 'elbow' ('j2' in messages) has not been published yet");
+}
+
+TEST_F(ArticulatedToolTest, JointsThatTwoNodesPublishAreAConflictForOneAndAHalfSecondsAfterTheLastRefusal) {
+  for (const std::string joint : {"shoulder", "elbow", "jaw"}) {
+    make();
+    tool_->add("/zeros", at(1.0, {"shoulder", "elbow", "jaw"}), steadyAt(0.0));
+    EXPECT_EQ(tool_->conflict(steadyAt(0.0)), "");
+    for (const double seconds : {0.1, 1.0}) {
+      EXPECT_THROW(tool_->add("/driver", at(1.1, {joint}), steadyAt(seconds)), sweep_guard_core::SeveralPublishers);
+    }
+    tool_->add("/zeros", at(1.2, {"shoulder", "elbow", "jaw"}), steadyAt(1.1));
+    tool_->reset();
+    EXPECT_EQ(tool_->conflict(steadyAt(2.5)),
+              "joint '" + joint + "' is published by /zeros and /driver: let one of them");
+    EXPECT_EQ(tool_->conflict(steadyAt(2.6)), "");
+  }
+}
+
+TEST_F(ArticulatedToolTest, NodesWithJointsOfTheirOwnAreNoConflict) {
+  make();
+  tool_->add("/arm", at(1.0, {"shoulder", "elbow"}), steadyAt(0.0));
+  tool_->add("/hand", at(1.0, {"jaw"}), steadyAt(0.0));
+  EXPECT_EQ(tool_->conflict(steadyAt(0.0)), "");
 }
 
 TEST_F(ArticulatedToolTest, AMissingPoseIsToldBesideMissingJoints) {

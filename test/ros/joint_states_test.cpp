@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <map>
 
+#include "connected_publisher.h"
 #include "guard_probe.h"
 #include "node_fixture.h"
 #include "proximity_listener.h"
@@ -25,6 +26,11 @@ const Positions kStraight = {{"shoulder", 0.0}, {"elbow", 0.0}, {"jaw", 0.04}};
 ros::Publisher& jointPublisher() {
   static ros::Publisher publisher = ros::NodeHandle().advertise<sensor_msgs::JointState>("joint_states", 1000);
   return publisher;
+}
+
+ros::Publisher& otherRobot() {
+  static ConnectedPublisher<sensor_msgs::JointState> publisher("/other_robot/joint_states");
+  return *publisher;
 }
 
 void placeBase(double z) {
@@ -56,14 +62,15 @@ class JointStatesTest : public testing::Test {
     for (const std::string& id : placed_) jointProbe().remove(id);
   }
 
-  void publish(const Positions& positions) {
+  void publish(const Positions& positions) { publish(positions, jointPublisher()); }
+  static void publish(const Positions& positions, ros::Publisher& publisher) {
     sensor_msgs::JointState message;
     message.header.stamp = jointProbe().time();
     for (const auto& [name, position] : positions) {
       message.name.push_back(name);
       message.position.push_back(position);
     }
-    jointPublisher().publish(message);
+    publisher.publish(message);
   }
 
   void placeSquare(const std::string& id, const Eigen::Vector3d& center, double half_side) {
@@ -261,6 +268,47 @@ TEST_F(JointStatesTest, BadPositionsAreRefusedByNodeAndJoint) {
     const Warning warning = jointProbe().awaitWarning(hasReason(one.reason));
     const std::string expected = "joint_states of " + ros::this_node::getName() + ": " + one.expected;
     EXPECT_NE(warning.text.find(expected), std::string::npos) << warning.text;
+  }
+  holdUntil(kStraight, isClearNow);
+}
+
+// The other node publishes every third time: what comes in between is swept. It ends after the other has fallen silent.
+TEST_F(JointStatesTest, JointsThatTwoNodesPublishAreNeverClear) {
+  placeSquare("square", {0.0, 0.0, -3.0}, 0.1);
+  for (const Positions& others : {kStraight, Positions{{"shoulder", 1.5}}, Positions{{"jaw", 0.0}}}) {
+    holdUntil(kStraight, isClearNow);
+    int steps = 0;
+    const auto hold_against = [&](const std::function<bool(const Warning&)>& fits) {
+      return holdUntil(kStraight, [&](const Warning& warning) {
+        if (++steps % 3 == 0) publish(others, otherRobot());
+        return fits(warning);
+      });
+    };
+    const Warning first = hold_against(hasReason(Warning::MULTI_PUBLISHER));
+    EXPECT_NE(first.text.find("/other_robot: let one of them"), std::string::npos) << first.text;
+    const size_t begin = jointProbe().warnings().size();
+    steps = 0;
+    hold_against([&](const Warning&) { return steps == 100; });
+    const auto warnings = jointProbe().warnings();
+    EXPECT_TRUE(std::none_of(warnings.begin() + static_cast<std::ptrdiff_t>(begin), warnings.end(), isClearNow));
+  }
+  holdUntil(kStraight, isClearNow);
+}
+
+TEST_F(JointStatesTest, AJointBeyondItsLimitsIsToldOf) {
+  placeSquare("square", {0.0, 0.0, -3.0}, 0.1);
+  const std::pair<std::string, double> cases[] = {{"shoulder", 90.0}, {"elbow", 3.5}, {"jaw", -0.01}};
+  for (const auto& [joint, position] : cases) {
+    holdUntil(kStraight, isClearNow);
+    Positions beyond = kStraight;
+    beyond[joint] = position;
+    jointProbe().tick(0.01);
+    publish(beyond);
+    jointProbe().awaitStatus("tool pose", [&, name = joint](const GuardProbe::Status& status) {
+      return status.level != GuardProbe::Status::OK &&
+             status.message.find("joint '" + name + "' is at ") != std::string::npos &&
+             status.message.find("of the robot description") != std::string::npos;
+    });
   }
   holdUntil(kStraight, isClearNow);
 }

@@ -51,7 +51,8 @@ class JointTimeline {
 
   /// Adds positions of some joints at one moment; all of them or, if it throws, none. Those of fixed joints are passed over.
   /// @param publisher  who says so; a joint belongs to the first who names it, until it was silent for 1 s
-  /// @throws InvalidInput if a position is not finite or beyond 1e4, or a joint is named twice
+  /// @throws InvalidInput if a position is not finite or beyond 1e4, that of a continuous joint beyond 1e10, or a joint is
+  ///     named twice
   /// @throws SeveralPublishers, OutOfOrder
   void add(const std::string& publisher, Time stamp, const std::vector<Position>& positions);
 

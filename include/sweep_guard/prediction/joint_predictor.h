@@ -14,7 +14,7 @@ struct PredictedJoints {
 };
 
 /// Predicts the motion of joints, each on its own, as PosePredictor predicts that of a pose. A joint is predicted to stop
-/// at its limits; one that is beyond a limit is not predicted to go farther. Any thread may call it, one thread at a time.
+/// at its limits; one that contradicts a limit (limitTolerance()) is predicted to go on as if it had none. Any thread may call it, one thread at a time.
 ///
 /// Of the options, `max_turn_rate` limits joints that turn and `max_speed` the others; the largest of `degree` is that of
 /// each joint. `constrained` does not count.

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "sweep_guard/common/printable.h"
+#include "sweep_guard/kinematics/joint_limits.h"
 #include "sweep_guard/kinematics/robot_motion.h"
 #include "sweep_guard/ros/conversions.h"
 
@@ -34,10 +35,14 @@ ArticulatedTool::ArticulatedTool(const LiveParameters& live, const Parameters& p
   }
 }
 
-void ArticulatedTool::add(const std::string& publisher, const sensor_msgs::JointState& positions) {
+void ArticulatedTool::add(const std::string& publisher, const sensor_msgs::JointState& positions,
+                          sweep_guard_core::SteadyTime received) try {
   names_.find(positions, named_);
   timeline_.add(publisher, fromMsg(positions.header.stamp), named_);
   noteForeign(positions);
+} catch (const sweep_guard_core::SeveralPublishers& error) {
+  conflict_.note(error.what(), received);
+  throw;
 }
 
 void ArticulatedTool::add(Time stamp, const Eigen::Isometry3d& X_WT) { timeline_.addRoot(stamp, X_WT * model_->X_TR); }
@@ -133,6 +138,10 @@ std::string ArticulatedTool::silence(Time now) const {
     if (newest && now - *newest > timeouts_[i]) return tell("joint " + shownJoint(i), *newest);
   }
   return "";
+}
+
+std::string ArticulatedTool::contradictedLimits(const sweep_guard_core::RobotState& state) const {
+  return sweep_guard_core::contradictedLimits(model_->robot.tree.variables(), state.positions);
 }
 
 void ArticulatedTool::placeAnew(const PoseOfFrame& X_WF, const std::function<void()>& place) {

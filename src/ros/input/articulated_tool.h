@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "monitor/recent_conflict.h"
 #include "ros/input/foreign_joints.h"
 #include "ros/input/joint_names.h"
 #include "ros/parameters/parameters.h"
@@ -31,7 +32,8 @@ class ArticulatedTool {
 
   /// Adds positions of joints; those that are not of the tool are passed over.
   /// @throws sweep_guard_core::InvalidInput as JointTimeline::add(), or if there are not as many positions as names
-  void add(const std::string& publisher, const sensor_msgs::JointState& positions);
+  void add(const std::string& publisher, const sensor_msgs::JointState& positions,
+           sweep_guard_core::SteadyTime received);
   /// Adds a pose of the tool frame, as JointTimeline::addRoot(); not with ToolSource::kJointStates.
   void add(sweep_guard_core::Time stamp, const Eigen::Isometry3d& X_WT);
 
@@ -51,13 +53,18 @@ class ArticulatedTool {
   /// @param now  as the stamps
   std::string silence(sweep_guard_core::Time now) const;
 
+  /// Returns which joint two nodes publish, in words, for 1.5 s after positions were refused for it (RecentConflict); empty: none.
+  std::string conflict(sweep_guard_core::SteadyTime now) const { return conflict_.text(now); }
+  /// Returns which joint of a state contradicts its limits, as contradictedLimits().
+  std::string contradictedLimits(const sweep_guard_core::RobotState& state) const;
+
   using PoseOfFrame = std::function<std::optional<Eigen::Isometry3d>(sweep_guard_core::Time)>;
   /// Moves the known poses of the tool frame with a frame whose static transform is replaced.
   /// @param X_WF   returns its pose at a time; empty: not known
   /// @param place  replaces it
   void placeAnew(const PoseOfFrame& X_WF, const std::function<void()>& place);
 
-  void reset();  ///< forgets all positions
+  void reset();  ///< forgets all positions, not a conflict
 
  private:
   bool isMissing(size_t variable) const;
@@ -77,10 +84,11 @@ class ArticulatedTool {
   std::vector<sweep_guard_core::Duration> timeouts_;  // by variable
   sweep_guard_core::JointTimeline timeline_;
   std::vector<sweep_guard_core::JointTimeline::Position> named_;  // in the message
-  ForeignJoints foreign_;                                         // since a joint of the tool is missing
-  std::optional<sweep_guard_core::Time> stamp_;                   // of state_
-  sweep_guard_core::RobotState state_;                            // the newest
-  std::optional<sweep_guard_core::Time> next_stamp_;              // of next_ while it waits
+  sweep_guard_core::RecentConflict conflict_;
+  ForeignJoints foreign_;                             // since a joint of the tool is missing
+  std::optional<sweep_guard_core::Time> stamp_;       // of state_
+  sweep_guard_core::RobotState state_;                // the newest
+  std::optional<sweep_guard_core::Time> next_stamp_;  // of next_ while it waits
   sweep_guard_core::RobotState next_;
   std::vector<Eigen::Isometry3d> X_WB_;
 };

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "monitor/recent_conflict.h"
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/common/stamped_pose.h"
 #include "sweep_guard/geometry/motion.h"
@@ -23,11 +24,10 @@ using Transform = FramePublishers::Transform;
 using Samples = sweep_guard_core::SampleBuffer<Transform>;
 
 constexpr Duration kByTurns = std::chrono::milliseconds(1100);  // 1 s, and jitter
-constexpr Duration kShown = std::chrono::milliseconds(1500);
-constexpr size_t kMaxNodes = 4;      // of a frame
-constexpr size_t kMaxSamples = 256;  // of a node
-constexpr double kDistance = 1e-3;   // [m]
-constexpr double kTurn = 1e-3;       // [rad]
+constexpr size_t kMaxNodes = 4;                                 // of a frame
+constexpr size_t kMaxSamples = 256;                             // of a node
+constexpr double kDistance = 1e-3;                              // [m]
+constexpr double kTurn = 1e-3;                                  // [rad]
 
 // How much of a difference between two nodes may come from the straight motion between two samples of one.
 struct Difference {
@@ -146,7 +146,7 @@ std::vector<FramePublishers::Conflict> FramePublishers::conflicts(SteadyTime now
   std::vector<Conflict> current;
   const sweep_guard_core::Lock lock(mutex_);
   for (auto conflict = conflicts_.begin(); conflict != conflicts_.end();) {
-    const bool over = now - conflict->second.found > kShown;
+    const bool over = now - conflict->second.found > sweep_guard_core::kConflictShown;
     if (!over) current.push_back(conflict->second);
     conflict = over ? conflicts_.erase(conflict) : std::next(conflict);
   }

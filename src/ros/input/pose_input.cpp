@@ -105,7 +105,7 @@ void PoseInput::acceptJoints(const sensor_msgs::JointState& joints, const std::s
   begin(checkpoint);
   try {
     requireStamp(timestamps.stamp, named);
-    articulated_->add(sender, joints);
+    articulated_->add(sender, joints, timestamps.received);
   } catch (...) {
     return refuseCaught("joint_states of " + sweep_guard_core::printable(sender) + ": ");
   }
@@ -140,9 +140,16 @@ std::string PoseInput::jumpTo(const sweep_guard_core::PoseWithFrames& state) {
   const sweep_guard_core::PredictorOptions& limits = newest->guard.predictor;
   std::string jump =
       jumps_.add({state.stamp, state.X_WT, state.state.positions}, {limits.max_speed, limits.max_turn_rate});
-  const std::string faster = jumps_.faster();
-  if (!faster.empty()) record_.warn(faster);
+  tellAnomalies(state);
   return jump;
+}
+
+void PoseInput::tellAnomalies(const sweep_guard_core::PoseWithFrames& state) {
+  std::string anomalies = jumps_.faster();
+  const std::string contradicted = articulated_ ? articulated_->contradictedLimits(state.state) : "";
+  if (!anomalies.empty() && !contradicted.empty()) anomalies += "; ";
+  anomalies += contradicted;
+  if (!anomalies.empty()) record_.warn(anomalies);
 }
 
 void PoseInput::countLost(const std::string& publisher, std::uint32_t sequence) {
@@ -156,8 +163,13 @@ bool PoseInput::hasSeveralPublishers() const {
   return subscriber_ && !allow_several_publishers_ && subscriber_.getNumPublishers() > 1;
 }
 
-void PoseInput::reportConflict() {
-  const std::string conflict = allow_several_publishers_ ? "" : frames_.conflict();
+// Of a joint, also where several publishers are allowed: positions of one of them are refused.
+void PoseInput::reportConflicts() {
+  if (!allow_several_publishers_) reportConflict(frames_.conflict());
+  if (articulated_) reportConflict(articulated_->conflict(std::chrono::steady_clock::now()));
+}
+
+void PoseInput::reportConflict(const std::string& conflict) {
   if (conflict.empty()) return;
   monitor_.fault(sweep_guard_core::kMultiPublisher, conflict);
   log_.error("conflict", conflict);
@@ -245,7 +257,7 @@ void PoseInput::begin(const Checkpoint& checkpoint) {
   if (hasSeveralPublishers()) {
     monitor_.fault(sweep_guard_core::kMultiPublisher, "several nodes publish tool poses on " + source_);
   }
-  reportConflict();
+  reportConflicts();
   reportRefusal();
 }
 

@@ -64,7 +64,8 @@ class PoseInput {
   void onMessage(const ros::MessageEvent<const geometry_msgs::PoseStamped>& event);
   void countLost(const std::string& publisher, std::uint32_t sequence);
   bool hasSeveralPublishers() const;
-  void reportConflict();
+  void reportConflicts();
+  void reportConflict(const std::string& conflict);
   void reportRefusal();
   void onRefusal();
   void onTransforms();
@@ -84,6 +85,7 @@ class PoseInput {
   void repeat(sweep_guard_core::Time changed_from, const Checkpoint& checkpoint);
   std::set<std::string> applyStaticChanges(sweep_guard_core::Time from);
   std::string jumpTo(const sweep_guard_core::PoseWithFrames& state);
+  void tellAnomalies(const sweep_guard_core::PoseWithFrames& state);
   void refuseCaught(const std::string& sender = "");
   void refuse(sweep_guard_core::Reason reason, const std::string& message);
 

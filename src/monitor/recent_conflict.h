@@ -1,0 +1,33 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "sweep_guard/common/time.h"
+
+namespace sweep_guard_core {
+
+/// How long a conflict of publishers counts after it was found: nodes that publish by turns once a second, with jitter, are in
+/// conflict all the time.
+constexpr Duration kConflictShown = std::chrono::milliseconds(1500);
+
+/// The newest conflict of publishers, while it counts. One thread.
+class RecentConflict {
+ public:
+  void note(const std::string& text, SteadyTime now) { newest_ = Found{text, now}; }
+
+  /// Returns the text of the conflict that was found within the last 1.5 s; empty: none was.
+  std::string text(SteadyTime now) const {
+    return newest_ && now - newest_->time <= kConflictShown ? newest_->text : "";
+  }
+
+ private:
+  struct Found {
+    std::string text;
+    SteadyTime time;
+  };
+  std::optional<Found> newest_;
+};
+
+}  // namespace sweep_guard_core
