@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <future>
 #include <iostream>
 #include <limits>
 #include <set>
@@ -28,6 +29,7 @@
 #include "recording/object_contacts.h"
 #include "recording/run_node.h"
 #include "session/held_warnings.h"
+#include "session/patient_call.h"
 #include "session/session_bag.h"
 #include "session/session_config.h"
 #include "session/session_files.h"
@@ -225,11 +227,23 @@ class ReplayReport {
             "the bag is not played: no service " + service + ". Each topic of the player needs a subscriber");
     publishStart();
     scaleHoldTime();
-    std_srvs::SetBool pause;
-    pause.request.data = 0;
-    playing_ = true;
-    if (!ros::service::call(service, pause) && ros::ok()) throw InvalidInput("the player does not answer " + service);
+    unpause(service);
     ROS_INFO("playing %s: %.1f s", files_.name().c_str(), toSeconds(bag_.end - bag_.start));
+  }
+
+  // The player answers once each topic has a subscriber.
+  void unpause(const std::string& service) {
+    playing_ = true;
+    std::future<bool> answer = startCall([service] {
+      std_srvs::SetBool pause;
+      pause.request.data = 0;
+      return ros::service::call(service, pause);
+    });
+    require(
+        [&answer] { return hasReturned(answer); },
+        "the bag is not played: its player waits for a subscriber on each topic. The log names the topic if the guard "
+        "knows another definition of its messages (md5sum)");
+    if (ros::ok() && !answer.get()) throw InvalidInput("the player does not answer " + service);
   }
 
   // The player knows nothing of what was recorded before its start, or the last message of a publisher at the most. Vertices and

@@ -1,16 +1,18 @@
 #include "session/session_bag.h"
 
 #include <geometry_msgs/PoseStamped.h>
+#include <sensor_msgs/JointState.h>
 #include <sweep_guard/DeformableMesh.h>
+#include <sweep_guard/Intend.h>
+#include <sweep_guard/MeshVertices.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <set>
-#include <utility>
 
+#include "common/frame_name.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/ros/conversions.h"
@@ -26,35 +28,54 @@ namespace {
 // No configuration of the guard accepts poses from farther ahead, or takes older poses for fresh.
 constexpr Duration kMaxAhead = std::chrono::milliseconds(50);
 constexpr Duration kMaxDelay = std::chrono::seconds(2);
-constexpr const char* kPoseType = "geometry_msgs/PoseStamped";
 constexpr const char* kMeshType = "sweep_guard/DeformableMesh";
 constexpr const char* kTransforms = "/tf";
 constexpr const char* kLatched =
     "What is latched, as meshes and static transforms are, is recorded once, in the first part of a split recording: "
     "replay all parts, bag:=FIRST:SECOND, or record with rosbag record --repeat-latched";
 
-using Types = std::map<std::string, std::string>;  // by topic
-
-std::string joinNames(const Types& types) {
+std::string joinNames(const TopicTypes& topics) {
   std::string list;
-  for (const auto& [topic, type] : types) list += fmt::format("\n  {} ({})", topic, type);
+  for (const auto& [topic, types] : topics) {
+    for (const MessageType& type : types) list += fmt::format("\n  {} ({})", topic, type.name);
+  }
   return list;
 }
 
-void require(const Types& types, const std::string& argument, const std::string& topic, const std::string& type,
+// The player would wait without end for the guard, which takes no other definition.
+template <typename Message>
+void requireVersion(const TopicTypes& topics, const std::string& topic) {
+  const auto found = topics.find(absoluteName(topic));
+  if (found == topics.end()) return;
+  for (const MessageType& type : found->second) {
+    if (type.md5sum == ros::message_traits::MD5Sum<Message>::value()) continue;
+    throw InvalidInput(fmt::format(
+        "{} is {} of another version of its definition: migrate it (rosbag fix), or record again", topic, type.name));
+  }
+}
+
+template <typename Message>
+void require(const TopicTypes& topics, const std::string& argument, const std::string& topic,
              const std::string& remedy) {
-  const auto found = types.find(topic);
-  if (found != types.end() && found->second == type) return;
-  throw InvalidInput(fmt::format("{}, {} must be {}; {}. The bag has:{}",
-                                 found == types.end() ? "no topic " + topic : topic + " is " + found->second, argument,
-                                 type, remedy, joinNames(types)));
+  const std::string expected = ros::message_traits::DataType<Message>::value();
+  const auto found = topics.find(absoluteName(topic));
+  std::string problem = found == topics.end() ? "no topic " + topic : "";
+  for (const MessageType& type : found == topics.end() ? std::set<MessageType>() : found->second) {
+    if (type.name != expected) problem = topic + " is " + type.name;
+  }
+  if (problem.empty()) return requireVersion<Message>(topics, topic);
+  throw InvalidInput(
+      fmt::format("{}, {} must be {}; {}. The bag has:{}", problem, argument, expected, remedy, joinNames(topics)));
 }
 
-bool hasMeshes(const Types& types) {
-  return std::any_of(types.begin(), types.end(), [](const auto& topic) { return topic.second == kMeshType; });
+bool hasMeshes(const TopicTypes& topics) {
+  const auto is_mesh = [](const MessageType& type) { return type.name == kMeshType; };
+  return std::any_of(topics.begin(), topics.end(), [&is_mesh](const auto& topic) {
+    return std::any_of(topic.second.begin(), topic.second.end(), is_mesh);
+  });
 }
 
-std::string remedyForMesh(const Types& types) {
+std::string remedyForMesh(const TopicTypes& types) {
   std::string remedy = "give mesh:=TOPIC, or mesh_file:=FILE if it was not recorded";
   if (hasMeshes(types)) return remedy;
   if (types.count(kStaticTransformsTopic) == 0)
@@ -62,23 +83,23 @@ std::string remedyForMesh(const Types& types) {
   return remedy + ". " + kLatched;
 }
 
-void requireTopics(const Types& types, const SessionTopics& topics) {
-  if (!topics.tool_pose.empty()) require(types, "tool_pose", topics.tool_pose, kPoseType, "give tool_pose:=TOPIC");
-  if (!topics.joint_states.empty()) {
-    require(types, "joint_states", topics.joint_states, "sensor_msgs/JointState", "give joint_states:=TOPIC");
-  }
+void requireTopics(const TopicTypes& types, const SessionTopics& topics) {
+  if (!topics.tool_pose.empty())
+    require<geometry_msgs::PoseStamped>(types, "tool_pose", topics.tool_pose, "give tool_pose:=TOPIC");
+  if (!topics.joint_states.empty())
+    require<sensor_msgs::JointState>(types, "joint_states", topics.joint_states, "give joint_states:=TOPIC");
+  for (const char* const topic : {kTransforms, kStaticTransformsTopic})
+    requireVersion<tf2_msgs::TFMessage>(types, topic);
+  requireVersion<sweep_guard::Intend>(types, kIntendTopic);
   if (topics.mesh.empty()) return;
-  require(types, "mesh", topics.mesh, kMeshType, remedyForMesh(types));
-  if (types.count(topics.mesh_vertices) == 0) return;
-  require(types, "mesh_vertices", topics.mesh_vertices, "sweep_guard/MeshVertices", "give mesh_vertices:=TOPIC");
+  require<sweep_guard::DeformableMesh>(types, "mesh", topics.mesh, remedyForMesh(types));
+  if (types.count(absoluteName(topics.mesh_vertices)) == 0) return;
+  require<sweep_guard::MeshVertices>(types, "mesh_vertices", topics.mesh_vertices, "give mesh_vertices:=TOPIC");
 }
 
 using Frames = std::set<std::string>;
 
-void addFrame(std::string frame, Frames& frames) {
-  if (!frame.empty() && frame.front() == '/') frame.erase(0, 1);
-  frames.insert(std::move(frame));
-}
+void addFrame(const std::string& frame, Frames& frames) { frames.insert(sweep_guard_core::withoutSlash(frame)); }
 
 void readPoses(const SessionFiles& files, const std::string& topic, SessionBag& session, Frames& frames) {
   Duration min_delay = Duration::max();
@@ -132,7 +153,7 @@ void erasePlaced(const SessionFiles& files, Frames& frames) {
   }
 }
 
-std::string missingTransforms(const Types& types, const Frames& frames) {
+std::string missingTransforms(const TopicTypes& types, const Frames& frames) {
   std::string names;
   for (const std::string& frame : frames) {
     names += (names.empty() ? "'" : ", '") + sweep_guard_core::printable(frame) + "'";
@@ -153,14 +174,15 @@ SessionBag inspect(const SessionFiles& files, const SessionTopics& topics, Durat
   session.begin = files.begin();
   session.start = session.begin + start;
   session.end = files.end();
-  Frames frames(topics.frames.begin(), topics.frames.end());
+  Frames frames;
+  for (const std::string& frame : topics.frames) addFrame(frame, frames);
   if (!topics.mesh.empty()) {
     session.meshes = files.count(topics.mesh);
     session.vertices = files.count(topics.mesh_vertices);
     readMeshFrames(files, topics.mesh, frames);
   }
   if (!topics.tool_pose.empty()) readPoses(files, topics.tool_pose, session, frames);
-  frames.erase(topics.fixed_frame);
+  frames.erase(sweep_guard_core::withoutSlash(topics.fixed_frame));
   erasePlaced(files, frames);
   if (!frames.empty()) session.missing.push_back(missingTransforms(files.types(), frames));
   return session;

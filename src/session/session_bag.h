@@ -10,8 +10,9 @@
 namespace sweep_guard_session {
 
 constexpr const char* kStaticTransformsTopic = "/tf_static";
+constexpr const char* kIntendTopic = "/sweep_guard/intend_updates";
 
-/// Topics of the guard's inputs, as they are named in the bag.
+/// Topics of the guard's inputs. The bag may name them without a slash at their front.
 struct SessionTopics {
   std::string tool_pose;              ///< geometry_msgs/PoseStamped; empty: the pose comes from elsewhere
   std::string mesh;                   ///< sweep_guard/DeformableMesh; empty: the workpiece comes from elsewhere
@@ -36,7 +37,7 @@ struct SessionBag {
 /// Checks a recorded session before it is played.
 /// @param start  after the first message; it is played from there on; >= 0
 /// @throws sweep_guard_core::InvalidInput that says what is wrong and what to do: a topic is missing or has another type (the
-///     message lists the topics); poses have no stamps, or stamps from another clock than the recorder's; the session
+///     message lists the topics), or one that is played has another version of its type; poses have no stamps, or stamps from another clock than the recorder's; the session
 ///     ends before the start; or a file is broken
 SessionBag inspectSession(const SessionFiles& files, const SessionTopics& topics,
                           sweep_guard_core::Duration start = sweep_guard_core::Duration(0));

@@ -2,7 +2,9 @@
 
 #include <rosbag/view.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <sstream>
 
 #include "recording/bag.h"
@@ -45,7 +47,17 @@ std::unique_ptr<const rosbag::Bag> openNamed(const std::string& path) {
   }
 }
 
+auto topicsQuery(const std::vector<std::string>& topics) {
+  std::set<std::string> names;
+  std::transform(topics.begin(), topics.end(), std::inserter(names, names.end()), absoluteName);
+  return [names](const rosbag::ConnectionInfo* connection) { return names.count(absoluteName(connection->topic)) > 0; };
+}
+
 }  // namespace
+
+std::string absoluteName(const std::string& topic) {
+  return topic.empty() || topic.front() == '/' ? topic : '/' + topic;
+}
 
 std::vector<std::string> bagFiles(const std::string& list, const std::string& folder) {
   const auto in_folder = [&folder](const std::string& name) { return (std::filesystem::path(folder) / name).string(); };
@@ -66,7 +78,7 @@ SessionFiles::SessionFiles(const std::vector<std::string>& paths) : paths_(paths
   begin_ = all.getBeginTime();
   end_ = all.getEndTime();
   for (const rosbag::ConnectionInfo* connection : all.getConnections())
-    types_[connection->topic] = connection->datatype;
+    types_[absoluteName(connection->topic)].insert({connection->datatype, connection->md5sum});
 }
 
 std::string SessionFiles::name() const {
@@ -78,7 +90,7 @@ Time SessionFiles::end() const { return fromMsg(end_); }
 
 std::size_t SessionFiles::count(const std::string& topic) const {
   std::size_t count = 0;
-  for (const auto& bag : bags_) count += rosbag::View(*bag, rosbag::TopicQuery(topic)).size();
+  for (const auto& bag : bags_) count += rosbag::View(*bag, topicsQuery({topic})).size();
   return count;
 }
 
@@ -86,7 +98,7 @@ void SessionFiles::forEach(const std::vector<std::string>& topics, Time from, Ti
   withoutExceptionsOfRosbag([&] {
     rosbag::View view;
     for (const auto& bag : bags_) {
-      view.addQuery(*bag, rosbag::TopicQuery(topics), sweep_guard_ros::toMsg(from), sweep_guard_ros::toMsg(to));
+      view.addQuery(*bag, topicsQuery(topics), sweep_guard_ros::toMsg(from), sweep_guard_ros::toMsg(to));
     }
     for (const rosbag::MessageInstance& message : view) read(message);
   });

@@ -20,8 +20,6 @@ struct SessionStart {
   std::vector<sweep_guard::Intend::ConstPtr> intends;     ///< those not taken back; durations count from the start
 };
 
-constexpr const char* kIntendTopic = "/sweep_guard/intend_updates";
-
 /// Reads the messages that were recorded before `start`.
 /// @throws sweep_guard_core::InvalidInput if a file is broken
 SessionStart readStart(const SessionFiles& files, const SessionTopics& topics, sweep_guard_core::Time start);

@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <boost/make_shared.hpp>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -46,6 +47,21 @@ class SessionBagTest : public testing::Test {
     message.transforms[0].header.frame_id = parent;
     message.transforms[0].child_frame_id = child;
     bag_.write(topic, ros::Time(101.0), message);
+  }
+
+  // As of a version of its definition that is older.
+  template <typename Message>
+  void writeOld(const std::string& topic) {
+    const auto header = boost::make_shared<ros::M_string>();
+    (*header)["type"] = ros::message_traits::DataType<Message>::value();
+    (*header)["md5sum"] = "0123456789abcdef0123456789abcdef";
+    (*header)["message_definition"] = ros::message_traits::Definition<Message>::value();
+    bag_.write(topic, ros::Time(102.0), Message(), header);
+  }
+  void expectRefusalOfVersion(const std::string& topic) {
+    const std::string text = refusal();
+    EXPECT_TRUE(has(text, topic + " is ")) << text;
+    EXPECT_TRUE(has(text, "of another version of its definition: migrate it (rosbag fix), or record again")) << text;
   }
 
   SessionBag inspect() {
@@ -130,6 +146,70 @@ TEST_F(SessionBagTest, RefusesATopicOfAnotherType) {
   writeMesh();
   bag_.write("/tool_pose", ros::Time(101.0), std_msgs::Header());
   EXPECT_TRUE(has(refusal(), "/tool_pose is std_msgs/Header"));
+}
+
+// The player would wait for the guard without end.
+TEST_F(SessionBagTest, RefusesAMeshOfAnotherVersion) {
+  writePose(101.0, 101.0);
+  writeMesh();  // of another publisher
+  writeOld<sweep_guard::DeformableMesh>("/mesh");
+  expectRefusalOfVersion("/mesh");
+}
+
+TEST_F(SessionBagTest, RefusesPosesOfAnotherVersion) {
+  writeMesh();
+  writeOld<geometry_msgs::PoseStamped>("tool_pose");
+  expectRefusalOfVersion("/tool_pose");
+}
+
+TEST_F(SessionBagTest, RefusesVerticesOfAnotherVersion) {
+  writeMesh();
+  writePose(101.0, 101.0);
+  writeOld<sweep_guard::MeshVertices>("/mesh_vertices");
+  expectRefusalOfVersion("/mesh_vertices");
+}
+
+TEST_F(SessionBagTest, RefusesTransformsOfAnotherVersion) {
+  writeMesh();
+  writePose(101.0, 101.0);
+  writeOld<tf2_msgs::TFMessage>("tf_static");
+  expectRefusalOfVersion("/tf_static");
+}
+
+TEST_F(SessionBagTest, PassesOverAnotherVersionOfWhatIsNotPlayed) {
+  writeMesh();
+  writePose(101.0, 101.0);
+  writeOld<sweep_guard::DeformableMesh>("/other_mesh");
+  EXPECT_EQ(inspect().meshes, 1U);
+}
+
+TEST_F(SessionBagTest, FindsTopicsThatAScriptWroteWithoutASlash) {
+  writeMesh("mesh", "table");
+  writePose(101.0, 101.0, "tool_pose");
+  writePose(102.0, 102.0);
+  writeTransform("tf_static", "world", "table");
+  bag_.close();
+  for (const std::string slash : {"/", ""}) {
+    const SessionTopics topics{slash + "tool_pose", slash + "mesh", slash + "mesh_vertices", ""};
+    const SessionBag bag = inspectSession(SessionFiles({path_}), topics);
+    EXPECT_EQ(bag.poses.size(), 2U) << slash;
+    EXPECT_EQ(bag.meshes, 1U) << slash;
+    EXPECT_TRUE(bag.missing.empty()) << slash;
+  }
+}
+
+TEST_F(SessionBagTest, FixedFrameAndThoseOfTheToolMayHaveASlash) {
+  writeMesh("/mesh", "/world");
+  writePose(101.0, 101.0);
+  bag_.close();
+  for (const std::string fixed : {"world", "/world"}) {
+    for (const std::string tool : {"world", "/world"}) {
+      const SessionTopics topics{"/tool_pose", "/mesh", "/mesh_vertices", "", {tool}, fixed};
+      EXPECT_TRUE(inspectSession(SessionFiles({path_}), topics).missing.empty()) << fixed << ' ' << tool;
+    }
+  }
+  const SessionTopics other{"/tool_pose", "/mesh", "/mesh_vertices", "", {"/tip"}, "/world"};
+  EXPECT_TRUE(has(inspectSession(SessionFiles({path_}), other).missing.at(0), "no transform of 'tip'"));
 }
 
 TEST_F(SessionBagTest, RefusesPosesWithoutStamps) {

@@ -3,6 +3,7 @@
 #include <new>
 #include <thread>
 
+#include "common/frame_name.h"
 #include "common/heartbeat.h"
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/ros/conversions.h"
@@ -10,14 +11,14 @@
 namespace sweep_guard_ros {
 namespace {
 
+using sweep_guard_core::isSameFrame;
 using sweep_guard_core::printable;
+using sweep_guard_core::withoutSlash;
 
 constexpr auto kPollPeriod = std::chrono::milliseconds(1);
 constexpr std::uint32_t kTransformsQueued = 1000;
 constexpr size_t kMaxReason = 400;    // [bytes]
 constexpr size_t kMaxFrames = 10000;  // tf2 forgets none
-
-std::string withoutSlash(const std::string& frame) { return frame.substr(frame.find_first_not_of('/') == 1 ? 1 : 0); }
 
 void normalize(geometry_msgs::Quaternion& q) {
   const double length = Eigen::Vector4d(q.x, q.y, q.z, q.w).norm();
@@ -224,7 +225,7 @@ void Frames::countFrames(const geometry_msgs::TransformStamped& transform) {
 
 Eigen::Isometry3d Frames::lookup(const std::string& target, const std::string& source,
                                  sweep_guard_core::Time stamp) const {
-  if (withoutSlash(target) == withoutSlash(source)) return Eigen::Isometry3d::Identity();
+  if (isSameFrame(target, source)) return Eigen::Isometry3d::Identity();
   try {
     return fromMsg(buffer_.lookup(withoutSlash(target), withoutSlash(source), toMsg(stamp)).transform);
   } catch (const tf2::TransformException& error) {
@@ -257,7 +258,7 @@ Eigen::Isometry3d Frames::lookup(const std::string& target, const std::string& s
 }
 
 NewestPose Frames::newestPose(const std::string& target, const std::string& source) const {
-  if (withoutSlash(target) == withoutSlash(source)) return {};
+  if (isSameFrame(target, source)) return {};
   try {
     const auto newest = buffer_.lookup(withoutSlash(target), withoutSlash(source), ros::Time(0));
     return {fromMsg(newest.header.stamp), fromMsg(newest.transform)};
@@ -269,7 +270,7 @@ NewestPose Frames::newestPose(const std::string& target, const std::string& sour
 }
 
 std::optional<sweep_guard_core::Time> Frames::newest(const std::string& target, const std::string& source) const {
-  if (withoutSlash(target) == withoutSlash(source)) return sweep_guard_core::Time();
+  if (isSameFrame(target, source)) return sweep_guard_core::Time();
   try {
     return fromMsg(buffer_.lookup(withoutSlash(target), withoutSlash(source), ros::Time(0)).header.stamp);
   } catch (const tf2::TransformException&) {

@@ -1,5 +1,6 @@
 #include "ros/motion/command_frames.h"
 
+#include "common/frame_name.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
@@ -20,7 +21,8 @@ Eigen::Isometry3d commandFramePose(const Frames& frames, const MotionParameters&
   const std::string& named = frame.empty() ? parameters.command_frame : frame;
   if (named.empty())
     throw FrameError("its header names no frame: set command_frame to the one that the robot takes it in");
-  if (named != parameters.tool.frame) return newestPose(frames, parameters.tool.fixed_frame, named);
+  if (!sweep_guard_core::isSameFrame(named, parameters.tool.frame))
+    return newestPose(frames, parameters.tool.fixed_frame, named);
   if (!tool) throw FrameError("the command is in the frame of the tool, and there is no tool pose yet");
   return tool->X_WT;
 }
