@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "sweep_guard/common/printable.h"
-#include "sweep_guard/kinematics/joint_limits.h"
 #include "sweep_guard/kinematics/robot_motion.h"
 #include "sweep_guard/ros/conversions.h"
 
@@ -138,10 +137,6 @@ std::string ArticulatedTool::silence(Time now) const {
     if (newest && now - *newest > timeouts_[i]) return tell("joint " + shownJoint(i), *newest);
   }
   return "";
-}
-
-std::string ArticulatedTool::contradictedLimits(const sweep_guard_core::RobotState& state) const {
-  return sweep_guard_core::contradictedLimits(model_->robot.tree.variables(), state.positions);
 }
 
 void ArticulatedTool::placeAnew(const PoseOfFrame& X_WF, const std::function<void()>& place) {

@@ -55,8 +55,6 @@ class ArticulatedTool {
 
   /// Returns which joint two nodes publish, in words, for 1.5 s after positions were refused for it (RecentConflict); empty: none.
   std::string conflict(sweep_guard_core::SteadyTime now) const { return conflict_.text(now); }
-  /// Returns which joint of a state contradicts its limits, as contradictedLimits().
-  std::string contradictedLimits(const sweep_guard_core::RobotState& state) const;
 
   using PoseOfFrame = std::function<std::optional<Eigen::Isometry3d>(sweep_guard_core::Time)>;
   /// Moves the known poses of the tool frame with a frame whose static transform is replaced.

@@ -31,11 +31,6 @@ std::string sourceOf(const ros::NodeHandle& node, const Parameters& parameters) 
   return parameters.articulated ? pose + " and " + joints : pose;
 }
 
-std::vector<sweep_guard_core::JointVariable> jointsOf(const Parameters& parameters) {
-  if (!parameters.articulated) return {};
-  return parameters.robot->robot.tree.variables();
-}
-
 }  // namespace
 
 PoseInput::PoseInput(const ros::NodeHandle& node, const LiveParameters& live, const PoseInputDependencies& dependencies)
@@ -47,8 +42,8 @@ PoseInput::PoseInput(const ros::NodeHandle& node, const LiveParameters& live, co
       frames_(dependencies.frames),
       monitor_(dependencies.monitor),
       queue_(dependencies.queue),
-      jumps_(tool_frame_, fixed_frame_, jointsOf(live.initial())),
       resting_(live, frames_),
+      watch_(live, record_),
       moving_frames_(fixed_frame_, {frames_, dependencies.frame_motions, monitor_, queue_, record_}),
       late_(live, frames_),
       path_(fixed_frame_, frames_, dependencies.workpieces, moving_frames_) {
@@ -131,25 +126,6 @@ void PoseInput::pushKnownPoses(sweep_guard_core::SteadyTime received, const Chec
   }
 } catch (...) {
   refuseCaught();
-}
-
-// The state is the last of the poses that the motion to it was cut into.
-std::string PoseInput::jumpTo(const sweep_guard_core::PoseWithFrames& state) {
-  repeated_.add(state.X_WT, state.state.positions);
-  const auto newest = live_.get();  // limits may change
-  const sweep_guard_core::PredictorOptions& limits = newest->guard.predictor;
-  std::string jump =
-      jumps_.add({state.stamp, state.X_WT, state.state.positions}, {limits.max_speed, limits.max_turn_rate});
-  tellAnomalies(state);
-  return jump;
-}
-
-void PoseInput::tellAnomalies(const sweep_guard_core::PoseWithFrames& state) {
-  std::string anomalies = jumps_.faster();
-  const std::string contradicted = articulated_ ? articulated_->contradictedLimits(state.state) : "";
-  if (!anomalies.empty() && !contradicted.empty()) anomalies += "; ";
-  anomalies += contradicted;
-  if (!anomalies.empty()) record_.warn(anomalies);
 }
 
 void PoseInput::countLost(const std::string& publisher, std::uint32_t sequence) {
@@ -249,7 +225,7 @@ void PoseInput::begin(const Checkpoint& checkpoint) {
     late_.clear();
     path_.clear();
     if (articulated_) articulated_->reset();
-    jumps_.reset();
+    watch_.reset();
     rested_until_ = {};
   }
   checkpoint_ = checkpoint;
@@ -318,7 +294,7 @@ void PoseInput::pushAllWaiting() {
 }
 
 void PoseInput::push(sweep_guard_core::SteadyTime received, const Checkpoint& checkpoint) {
-  const std::string jump = jumpTo(known_.back());
+  const std::string jump = watch_.add(known_.back());  // the others are those that the motion to it was cut into
   for (sweep_guard_core::PoseWithFrames& pose : known_) {
     pose.received = received;
     pose.jump = jump;
@@ -344,7 +320,7 @@ std::set<std::string> PoseInput::applyStaticChanges(sweep_guard_core::Time from)
   const auto apply = [&] { anew = moving_frames_.applyStaticChanges(from); };
   const auto X_WF = [this](sweep_guard_core::Time stamp) { return frames_.find(fixed_frame_, late_.frame(), stamp); };
   articulated_ ? articulated_->placeAnew(X_WF, apply) : apply();
-  jumps_.reset();  // what is placed anew does not jump
+  watch_.reset();
   return anew;
 }
 

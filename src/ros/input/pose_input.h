@@ -11,16 +11,15 @@
 
 #include "guard/workpiece_store.h"
 #include "monitor/input_record.h"
-#include "monitor/repeated_positions.h"
 #include "monitor/sequence_gaps.h"
 #include "monitor/work_queue.h"
-#include "prediction/tool_jumps.h"
 #include "ros/connection/bounded.h"
 #include "ros/input/articulated_tool.h"
 #include "ros/input/frames.h"
 #include "ros/input/late_poses.h"
 #include "ros/input/moving_frames.h"
 #include "ros/input/resting_pose.h"
+#include "ros/input/state_watch.h"
 #include "ros/input/tool_path.h"
 #include "ros/parameters/parameters.h"
 #include "ros/process/log_throttle.h"
@@ -48,7 +47,7 @@ class PoseInput {
   const sweep_guard_core::InputRecord& record() const { return record_; }
   const std::string& source() const { return source_; }  ///< resolved topics, or the tf frames
   std::optional<std::uint32_t> publishers() const;       ///< of the topic of poses; empty: there is none
-  const sweep_guard_core::RepeatedPositions& repeated() const { return repeated_; }
+  const sweep_guard_core::RepeatedPositions& repeated() const { return watch_.repeated(); }
   std::uint64_t lost() const { return lost_; }  ///< poses that were sent and did not arrive, by header.seq
 
   /// Applies changes of static transforms that are held back for longer than `timing/pose_timeout`, unless poses wait. Any thread.
@@ -84,8 +83,6 @@ class PoseInput {
   void reportSilence(sweep_guard_core::Time stamp);
   void repeat(sweep_guard_core::Time changed_from, const Checkpoint& checkpoint);
   std::set<std::string> applyStaticChanges(sweep_guard_core::Time from);
-  std::string jumpTo(const sweep_guard_core::PoseWithFrames& state);
-  void tellAnomalies(const sweep_guard_core::PoseWithFrames& state);
   void refuseCaught(const std::string& sender = "");
   void refuse(sweep_guard_core::Reason reason, const std::string& message);
 
@@ -99,8 +96,6 @@ class PoseInput {
   sweep_guard_core::WorkQueue& queue_;
 
   Checkpoint checkpoint_;                                 // of the previous input
-  sweep_guard_core::ToolJumps jumps_;                     // in the states that come in
-  sweep_guard_core::RepeatedPositions repeated_;          // of these states
   std::optional<sweep_guard_core::Time> last_transform_;  // used by onTransforms() only
   RestingPose resting_;
   sweep_guard_core::Time rested_until_;  // stamp of the newest pose of a tool from tf at rest
@@ -109,6 +104,7 @@ class PoseInput {
   std::atomic<size_t> waiting_ = 0;  // poses from tf
   LogThrottle log_;
   sweep_guard_core::InputRecord record_;
+  StateWatch watch_;
   MovingFrames moving_frames_;
   LatePoses late_;
   ToolPath path_;
