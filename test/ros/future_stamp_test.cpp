@@ -31,7 +31,8 @@ class FutureStampTest : public testing::Test {
       heartbeat.end();
       return future;
     });
-    while (heartbeat.steps().value_or(0) == 0 && answer.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
+    while (heartbeat.steps().value_or(0) == 0 &&
+           answer.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
     }
     ros::Time::setNow(after);
     return answer.get();
@@ -52,6 +53,21 @@ TEST_F(FutureStampTest, OneThatIsFarAheadIsNotWaitedFor) {
 
 TEST_F(FutureStampTest, AClockThatBeginsEarlierSaysThatItLiesAhead) {
   EXPECT_TRUE(liesInFutureWhile(ros::Time(), ros::Time(990.0)));
+}
+
+TEST_F(FutureStampTest, AnInputThatWaitsIsReceivedWhenTheClockHasCome) {
+  const sweep_guard_core::SteadyTime begin = std::chrono::steady_clock::now();
+  for (const double clock : {999.6, 999.8, 999.949, 999.951, 1000.0}) {
+    ros::Time::setNow(ros::Time(clock));
+    sweep_guard_core::Timestamps input{kStamp, begin};
+    auto answer = std::async(std::launch::async, [&input] { return liesInFuture(input); });
+    const bool waits = answer.wait_for(std::chrono::milliseconds(5)) != std::future_status::ready;
+    ros::Time::setNow(ros::Time(1000.0));
+    EXPECT_FALSE(answer.get());
+    EXPECT_EQ(input.stamp, kStamp);
+    if (waits) EXPECT_GT(input.received, begin) << clock;
+    if (clock > 999.95) EXPECT_EQ(input.received, begin) << clock;
+  }
 }
 
 }  // namespace
