@@ -13,6 +13,7 @@ namespace {
 
 using sweep_guard_core::Heartbeat;
 using sweep_guard_core::Time;
+using sweep_guard_core::Timestamps;
 
 const Time kStamp{std::chrono::seconds(1000)};
 
@@ -23,15 +24,20 @@ class FutureStampTest : public testing::Test {
 
   // Lets a clock go on while a stamp is judged, once it is waited for.
   static bool liesInFutureWhile(const ros::Time& before, const ros::Time& after) {
+    Timestamps input{kStamp, {}};
+    return liesInFutureWhile(before, after, input);
+  }
+  static bool liesInFutureWhile(const ros::Time& before, const ros::Time& after, Timestamps& input) {
     ros::Time::setNow(before);
     Heartbeat heartbeat;
-    auto answer = std::async(std::launch::async, [&heartbeat] {
+    auto answer = std::async(std::launch::async, [&heartbeat, &input] {
       heartbeat.begin();
-      const bool future = liesInFuture(kStamp);
+      const bool future = liesInFuture(input);
       heartbeat.end();
       return future;
     });
-    while (heartbeat.steps().value_or(0) == 0 && answer.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
+    while (heartbeat.steps().value_or(0) == 0 &&
+           answer.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
     }
     ros::Time::setNow(after);
     return answer.get();
@@ -52,6 +58,16 @@ TEST_F(FutureStampTest, OneThatIsFarAheadIsNotWaitedFor) {
 
 TEST_F(FutureStampTest, AClockThatBeginsEarlierSaysThatItLiesAhead) {
   EXPECT_TRUE(liesInFutureWhile(ros::Time(), ros::Time(990.0)));
+}
+
+TEST_F(FutureStampTest, AnInputThatWaitsIsReceivedWhenTheClockHasCome) {
+  const sweep_guard_core::SteadyTime begin = std::chrono::steady_clock::now();
+  for (const double clock : {999.6, 999.8, 999.949, 999.951, 1000.0}) {
+    Timestamps input{kStamp, begin};
+    EXPECT_FALSE(liesInFutureWhile(ros::Time(clock), ros::Time(1000.0), input)) << clock;
+    EXPECT_EQ(input.stamp, kStamp) << clock;
+    EXPECT_EQ(input.received > begin, clock < 999.95) << clock;
+  }
 }
 
 }  // namespace

@@ -53,6 +53,23 @@ TEST_F(PoseInputTest, NoPoseOfALongBacklogIsLost) {
   EXPECT_EQ(takeUpTo(end).size(), static_cast<size_t>(kPoses));
 }
 
+// The clock comes at 10 Hz.
+TEST_F(PoseInputTest, APoseThatWaitsForTheClockIsReceivedWhenThatHasCome) {
+  ros::Time clock = ros::Time::now();
+  for (const double ahead : {0.06, 0.08, 0.1}) {
+    ros::Time::setNow(clock);
+    const std::uint64_t received = input_.record().summary().received;
+    const ros::Time stamp = clock + ros::Duration(ahead);
+    publisher_.publish(poseIn(parameters_.fixed_frame, stamp));
+    while (input_.record().summary().received == received) std::this_thread::yield();
+    const sweep_guard_core::SteadyTime came = std::chrono::steady_clock::now();
+    clock += ros::Duration(0.1);
+    ros::Time::setNow(clock);
+    EXPECT_GE(takeUpTo(stamp).back().received, came) << ahead;
+  }
+  ros::Time::init();
+}
+
 class StaticBaseTest : public PoseInputTest {
  protected:
   StaticBaseTest() { frames_.start(supervisor_); }
@@ -191,6 +208,25 @@ TEST_F(RestingToolTest, MovesWithTheFirstTransformsThatMoveWhateverTheirDelay) {
   while (poses.empty() || poses.back().X_WT.translation().z() < 3.5) poses = take(1);
   EXPECT_EQ(poses.back().stamp, rested + std::chrono::milliseconds(40));
   EXPECT_EQ(monitor_.checkpoint().faults, faults) << text();
+}
+
+TEST_F(RestingToolTest, IsWhereItIsNowWhileItsTransformsLieAheadUntilTheyMove) {
+  placeBase(1.0);
+  awaitFrame("base");
+  const std::uint64_t faults = monitor_.checkpoint().faults;
+  const auto place = [this](double ahead, double z) {
+    transforms_.publish(transform("base", "arm", now_ + ros::Duration(ahead), z));
+    awaitArm(now_ + ros::Duration(ahead));
+  };
+  for (const double ahead : {0.0, 4.0, 6.0, 8.0}) place(ahead, 0.5);
+  for (const auto& pose : take(4)) {
+    EXPECT_NEAR(pose.X_WT.translation().z(), 1.5, 1e-9);
+    EXPECT_LE(pose.stamp, now().stamp);
+  }
+  EXPECT_EQ(monitor_.checkpoint().faults, faults) << text();
+  place(9.0, 0.7);
+  while (monitor_.checkpoint().faults == faults) std::this_thread::yield();
+  EXPECT_NE(text().find("stamp lies in the future"), std::string::npos) << text();
 }
 
 TEST_F(RestingToolTest, ATransformThatIsRefusedIsInTheTextAndTheRecord) {

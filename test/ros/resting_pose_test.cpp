@@ -57,6 +57,28 @@ TEST_F(RestingPoseTest, RestsWhileNoTransformMovesIt) {
   EXPECT_FALSE(resting_.rests(stamp));
 }
 
+// As those of a static transform that is published ahead by its period.
+TEST_F(RestingPoseTest, RestsWhereTransformsThatLieAheadDoNotMoveIt) {
+  placeBase(1.0);
+  awaitFrame("base");
+  moveArm(now_);
+  awaitArm(now_);
+  EXPECT_TRUE(resting_.moves(fromMsg(now_)));
+  for (const double ahead : {4.0, 6.0, 8.0}) {
+    const ros::Time newest = now_ + ros::Duration(ahead);
+    moveArm(newest);
+    awaitArm(newest);
+    EXPECT_FALSE(resting_.moves(fromMsg(newest))) << ahead;
+    EXPECT_TRUE(resting_.rests(fromMsg(now_ + ros::Duration(1.0)))) << ahead;
+    EXPECT_FALSE(resting_.rests(fromMsg(newest + ros::Duration(0.001)))) << ahead;
+  }
+  const ros::Time moved = now_ + ros::Duration(9.0);
+  transforms_.publish(transform("base", "arm", moved, 0.001));
+  awaitArm(moved);
+  EXPECT_TRUE(resting_.moves(fromMsg(moved)));
+  EXPECT_FALSE(resting_.rests(fromMsg(now_ + ros::Duration(1.0))));
+}
+
 TEST_F(RestingPoseTest, TransformsWithoutStampsAreNoRest) {
   placeBase(1.0);
   moveArm(ros::Time());

@@ -130,6 +130,15 @@ TEST(ToolModelTest, TakesTheRootForAToolFrameThatNobodyNamedIfItIsTold) {
   expectBox(model.pieces, Vector3d(-0.1, -0.1, 1.9), Vector3d(0.1, 0.1, 2.1));
 }
 
+TEST(ToolModelTest, AToolFrameMayHaveThePrefixThatItHasInTf) {
+  const std::string urdf = robot(link("a", kBall) + link("b", kBall) + joint("ab", "fixed", "a", "b"));
+  EXPECT_EQ(loadToolModel(urdf, toolOf("robot1/a", {"b"})).frame, "a");
+  EXPECT_EQ(loadToolModel(urdf, toolOf("/cell/robot1/b", {"b"})).frame, "b");
+  EXPECT_EQ(loadToolModel(urdf, toolOf("robot1/tool", {"b"})).frame, "b");
+  EXPECT_TRUE(has(refusal(urdf, toolOf("robot1/c", {"b"})),
+                  "tool_frame names 'robot1/c', which is not a link of the robot, nor is 'c'; its links are a, b"));
+}
+
 TEST(ToolModelTest, HoldsJointsWhereTheyAreSet) {
   const std::string urdf = robot(link("a", kBall) + link("b") + link("c", kBall) +
                                  joint("turn", "revolute", "a", "b",

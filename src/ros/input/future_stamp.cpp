@@ -14,6 +14,12 @@ constexpr double kPause = 0.001;  // [s]
 }  // namespace
 
 bool liesInFuture(sweep_guard_core::Time stamp) {
+  sweep_guard_core::Timestamps input{stamp, {}};
+  return liesInFuture(input);
+}
+
+bool liesInFuture(sweep_guard_core::Timestamps& input) {
+  const sweep_guard_core::Time stamp = input.stamp;
   const sweep_guard_core::Instant begin = now();
   const bool begun = begin.stamp != sweep_guard_core::Time();
   const bool may_wait = ros::Time::isSimTime() && (!begun || stamp <= begin.stamp + kMaxClockDelay);
@@ -22,6 +28,7 @@ bool liesInFuture(sweep_guard_core::Time stamp) {
     ros::WallDuration(kPause).sleep();
     sweep_guard_core::beat();
     at = now();
+    input.received = at.steady;
   }
   return stamp > at.stamp + kFutureTolerance;
 }

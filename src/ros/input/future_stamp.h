@@ -15,4 +15,7 @@ constexpr const char* kFutureStampText = "stamp lies in the future: are the cloc
 /// message.
 bool liesInFuture(sweep_guard_core::Time stamp);
 
+/// The same for an input. One that was waited for is received when the wait ends: it is no backlog.
+bool liesInFuture(sweep_guard_core::Timestamps& input);
+
 }  // namespace sweep_guard_ros

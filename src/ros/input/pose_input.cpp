@@ -94,12 +94,12 @@ void PoseInput::passOver(const sensor_msgs::JointState& joints) {
 
 void PoseInput::acceptJoints(const sensor_msgs::JointState& joints, const std::string& sender,
                              const std::string& named) {
-  const sweep_guard_core::Timestamps timestamps{fromMsg(joints.header.stamp), std::chrono::steady_clock::now()};
+  sweep_guard_core::Timestamps timestamps{fromMsg(joints.header.stamp), std::chrono::steady_clock::now()};
   const Checkpoint checkpoint = monitor_.checkpoint();
   const std::uint64_t static_changes = frames_.staticChanges();
   begin(checkpoint);
   try {
-    requireStamp(timestamps.stamp, named);
+    requireStamp(timestamps, named);
     articulated_->add(sender, joints, timestamps.received);
   } catch (...) {
     return refuseCaught("joint_states of " + sweep_guard_core::printable(sender) + ": ");
@@ -170,18 +170,18 @@ void PoseInput::onTransforms() {
   const std::optional<sweep_guard_core::Time> newest = frames_.newest(fixed_frame_, tool_frame_);
   if (newest == last_transform_) return;  // another transform has changed
   last_transform_ = newest;
-  if (newest && *newest != sweep_guard_core::Time()) addPoseOfFrame(*newest, /*rests=*/false);
+  if (newest && resting_.moves(*newest)) addPoseOfFrame(*newest, /*rests=*/false);
 }
 
 void PoseInput::addPoseOfFrame(sweep_guard_core::Time stamp, bool rests) {
   if (waiting_ >= kPosesQueued)
     return monitor_.fault(sweep_guard_core::kPosesUnswept, "tool poses from tf were dropped: too many wait");
-  const sweep_guard_core::Timestamps timestamps{stamp, std::chrono::steady_clock::now()};
-  ReceivedPose pose{timestamps, tool_frame_, Eigen::Isometry3d::Identity(), monitor_.checkpoint(),
-                    frames_.staticChanges()};
+  const Checkpoint checkpoint = monitor_.checkpoint();
+  ReceivedPose pose{{stamp, {}}, tool_frame_, Eigen::Isometry3d::Identity(), checkpoint, frames_.staticChanges()};
   ++waiting_;
   thread_.post([this, pose, rests]() mutable {
     --waiting_;
+    pose.timestamps.received = std::chrono::steady_clock::now();
     if (!articulated_) record_.received(pose.timestamps);
     if (pose.checkpoint.epoch < checkpoint_.epoch) {  // joints have come meanwhile
       pose.checkpoint = monitor_.checkpoint();
@@ -244,7 +244,7 @@ void PoseInput::accept(ReceivedPose pose, bool rests) try {
   const sweep_guard_core::Time rested_until = rests ? previous.value_or(rested_until_) : rested_until_;
   const sweep_guard_core::Time stamp = std::max(pose.timestamps.stamp, rested_until);
   pose.timestamps.stamp = stamp;
-  requireStamp(stamp);
+  requireStamp(pose.timestamps);
   if (previous) requireOrder(stamp, *previous);
   late_.use(pose.frame);
   path_.note(stamp, pose.static_changes);

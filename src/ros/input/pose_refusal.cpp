@@ -11,6 +11,7 @@ namespace {
 
 using sweep_guard_core::Reason;
 using sweep_guard_core::Time;
+using sweep_guard_core::Timestamps;
 
 struct RefusedStamp : sweep_guard_core::InvalidInput {
   RefusedStamp(Reason why, const std::string& message) : InvalidInput(message), reason(why) {}
@@ -35,16 +36,16 @@ PoseRefusal caughtRefusal() {
   }
 }
 
-void requireStamp(Time stamp) {
-  if (stamp == Time()) throw RefusedStamp(sweep_guard_core::kPoseInvalid, "stamp is 0: stamp each pose");
-  if (liesInFuture(stamp)) throw RefusedStamp(sweep_guard_core::kFutureStamp, kFutureStampText);
+void requireStamp(Timestamps& input) {
+  if (input.stamp == Time()) throw RefusedStamp(sweep_guard_core::kPoseInvalid, "stamp is 0: stamp each pose");
+  if (liesInFuture(input)) throw RefusedStamp(sweep_guard_core::kFutureStamp, kFutureStampText);
 }
 
-void requireStamp(Time stamp, const std::string& joint) {
+void requireStamp(Timestamps& input, const std::string& joint) {
   try {
-    requireStamp(stamp);
+    requireStamp(input);
   } catch (const RefusedStamp& error) {
-    const std::string text = stamp == Time() ? "stamp is 0: stamp each message" : error.what();
+    const std::string text = input.stamp == Time() ? "stamp is 0: stamp each message" : error.what();
     throw RefusedStamp(error.reason, "joint '" + sweep_guard_core::printable(joint) + "': " + text);
   }
 }

@@ -2,7 +2,15 @@
 
 #include <algorithm>
 
+#include "ros/input/future_stamp.h"
+#include "sweep_guard/ros/conversions.h"
+
 namespace sweep_guard_ros {
+namespace {
+
+constexpr double kRounded = 1e-6;  // [m, rad]
+
+}  // namespace
 
 using sweep_guard_core::InvalidInput;
 using sweep_guard_core::Time;
@@ -18,11 +26,26 @@ bool RestingPose::isDue(const sweep_guard_core::Instant& now) {
   return true;
 }
 
+bool RestingPose::moves(Time newest) {
+  const Time at = now().stamp;
+  stays_ahead_ = at != Time() && newest > at + kFutureTolerance && stays(at, newest);
+  return newest != Time() && !stays_ahead_;
+}
+
+bool RestingPose::stays(Time begin, Time end) const {
+  const Parameters& initial = live_.initial();
+  const auto X_begin = frames_.find(initial.fixed_frame, initial.tool_frame, begin);
+  const auto X_end = frames_.find(initial.fixed_frame, initial.tool_frame, end);
+  return X_begin && X_end && (X_begin->matrix() - X_end->matrix()).cwiseAbs().maxCoeff() <= kRounded;
+}
+
 bool RestingPose::rests(Time stamp) const {
   const std::string& fixed_frame = live_.initial().fixed_frame;
   const std::string& tool_frame = live_.initial().tool_frame;
   if (fixed_frame == tool_frame) throw InvalidInput("tool_frame is fixed_frame, in which it never moves");
-  if (frames_.newest(fixed_frame, tool_frame) != Time()) return false;
+  const auto newest = frames_.newest(fixed_frame, tool_frame);
+  if (stays_ahead_ && newest && stamp <= *newest) return stays(stamp, *newest);
+  if (newest != Time()) return false;
   if (frames_.find(fixed_frame, tool_frame, stamp)) return true;
   throw InvalidInput("the transforms to '" + tool_frame + "' have the stamp 0: stamp each");
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+
 #include "ros/input/frames.h"
 #include "ros/parameters/parameters.h"
 
@@ -15,14 +17,22 @@ class RestingPose {
   /// up. One thread.
   bool isDue(const sweep_guard_core::Instant& now);
 
-  /// Returns whether the tool is placed at a stamp and no transform moves it. Any thread.
+  /// Returns whether a newest transform of the tool is a pose by itself. Not one of stamp 0, and not while transforms lie ahead of now
+  /// and the tool stays until then: its poses are those of now, see rests(). If it moves, they may be of a fast clock, and its pose of
+  /// now late by that. One thread.
+  bool moves(sweep_guard_core::Time newest);
+
+  /// Returns whether the tool is placed at a stamp, and no transform moves it, or none until its newest if that lies ahead. Any thread.
   /// @throws sweep_guard_core::InvalidInput if nothing can ever move it, or what does has no stamps
   bool rests(sweep_guard_core::Time stamp) const;
 
  private:
+  bool stays(sweep_guard_core::Time begin, sweep_guard_core::Time end) const;
+
   const LiveParameters& live_;
   const Frames& frames_;
-  sweep_guard_core::Instant asked_{};  // when it was last due
+  sweep_guard_core::Instant asked_{};      // when it was last due
+  std::atomic<bool> stays_ahead_ = false;  // its transforms lie ahead
 };
 
 }  // namespace sweep_guard_ros

@@ -172,8 +172,9 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
   parameters.tool_frame =
       read.name("tool_frame", "tool",
                 "tf frame of the tool, and the tool's name in messages. With tool/type urdf: the "
-                "link that the poses are of; `tool` means the first of tool/links or, with tool_source "
-                "joint_states, the root of the robot.");
+                "link that the poses are of, in tf maybe with a prefix (robot1/base_link); `tool` means the first of "
+                "tool/links or, with tool_source joint_states, the root of the robot, and with tool_source tf or "
+                "joint_states the frame of that link in tf.");
   readTool(read, before, parameters);
   parameters.detector.name =
       read.live().choice("detector", "select", sweep_guard_core::detectorNames(),

@@ -29,19 +29,30 @@ std::string list(const std::vector<const urdf::Link*>& links) {
   return text + (links.size() > kMaxCount ? ", ..." : "");
 }
 
+InvalidInput noLink(const RobotDescription& robot, const std::string& text) {
+  return InvalidInput(text + "; its links are " + list(RobotDescription::subtree(robot.root())));
+}
+
 const urdf::Link& linkNamed(const RobotDescription& robot, const std::string& name, const std::string& parameter) {
   const urdf::Link* const link = robot.link(name);
   if (link != nullptr) return *link;
-  throw InvalidInput(parameter + " names '" + name + "', which is not a link of the robot; its links are " +
-                     list(RobotDescription::subtree(robot.root())));
+  throw noLink(robot, parameter + " names '" + name + "', which is not a link of the robot");
 }
 
+// In tf, a robot's frames may have a prefix, as that of tf_prefix.
+std::string withoutPrefix(const std::string& frame) { return frame.substr(frame.rfind('/') + 1); }
+
 const urdf::Link& frameOf(const RobotDescription& robot, const ToolModelOptions& options) {
-  if (options.frame != kDefaultFrame || robot.link(kDefaultFrame) != nullptr) {
-    return linkNamed(robot, options.frame, "tool_frame");
+  const std::string name = withoutPrefix(options.frame);
+  for (const std::string& candidate : {options.frame, name}) {
+    if (const urdf::Link* const link = robot.link(candidate); link != nullptr) return *link;
   }
-  return options.links.empty() || options.of_root ? robot.root()
-                                                  : linkNamed(robot, options.links.front(), "tool/links");
+  if (name == kDefaultFrame) {
+    return options.links.empty() || options.of_root ? robot.root()
+                                                    : linkNamed(robot, options.links.front(), "tool/links");
+  }
+  const std::string nor = name == options.frame ? "" : ", nor is '" + name + "'";
+  throw noLink(robot, "tool_frame names '" + options.frame + "', which is not a link of the robot" + nor);
 }
 
 std::vector<const urdf::Link*> linksOf(const RobotDescription& robot, const ToolModelOptions& options,

@@ -16,7 +16,8 @@ namespace sweep_guard_ros {
 
 /// Selects the tool from a robot.
 struct ToolModelOptions {
-  std::string frame = "tool";            ///< link of the tool frame; `tool` without such a link: the first of `links`
+  /// Link of the tool frame, maybe with a prefix before a slash. `tool` without such a link: the first of `links`.
+  std::string frame = "tool";
   bool of_root = false;                  ///< `tool` without such a link is the root of the robot, whatever `links` has
   std::vector<std::string> links;        ///< links of the tool; empty: the frame's link and all links below it
   std::map<std::string, double> joints;  ///< positions [rad or m] of joints within the tool; others: closest to 0
