@@ -149,25 +149,6 @@ TEST_F(ParametersTest, MakeAToolOfARobot) {
       "no tool from the parameter 'robot_description': tool/joints/opening is 1, beyond the joint's limits, 0 to 0.5");
 }
 
-TEST_F(ParametersTest, TheFrameOfALinkThatNobodyNamedIsThatOfTheLinkWhereTfPlacesIt) {
-  ros::param::set("/robot_description", kGripper);
-  node_.setParam("tool/type", "urdf");
-  node_.setParam("tool/links", std::vector<std::string>{"finger"});
-  const auto frame = [&](const std::string& source, const std::string& name) {
-    node_.setParam("tool_source", source);
-    node_.setParam("tool_frame", name);
-    return loadParameters(node_).tool_frame;
-  };
-  EXPECT_EQ(frame("topic", "tool"), "tool");
-  EXPECT_EQ(frame("joint_states", "tool"), "hand");
-  EXPECT_EQ(frame("joint_states", "robot1/hand"), "robot1/hand");
-  EXPECT_EQ(frame("tf", "robot1/tool"), "robot1/tool");
-  EXPECT_EQ(frame("tf", "tool"), "finger");
-  const Parameters before = loadParameters(node_);
-  EXPECT_EQ(changeParameters(node_, before, {{"cull", false}}).tool_frame, "finger");
-  EXPECT_EQ(changeParameters(node_, before, {{"tool/padding", 0.01}}).tool_frame, "finger");
-}
-
 // A command line has no lists.
 TEST_F(ParametersTest, TakeAListOfLinksAsText) {
   ros::param::set("/robot_description", kGripper);

@@ -169,12 +169,12 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
   const std::map<std::string, ToolSource> sources = {
       {"topic", ToolSource::kTopic}, {"tf", ToolSource::kTf}, {"joint_states", ToolSource::kJointStates}};
   parameters.tool_source = sources.at(source);
-  parameters.tool_frame =
-      read.name("tool_frame", "tool",
-                "tf frame of the tool, and the tool's name in messages. With tool/type urdf: the "
-                "link that the poses are of, in tf maybe with a prefix (robot1/base_link); `tool` means the first of "
-                "tool/links or, with tool_source joint_states, the root of the robot, and with tool_source tf or "
-                "joint_states the frame of that link in tf.");
+  parameters.tool_frame = read.name(
+      "tool_frame", "tool",
+      "tf frame of the tool, and the tool's name in messages. With tool/type urdf: the "
+      "link that the poses are of, in tf maybe with a prefix (robot1/base_link); `tool` means the first of "
+      "tool/links or, with tool_source joint_states, the root of the robot. With tool_source tf or joint_states, "
+      "tf has to know it by this name.");
   readTool(read, before, parameters);
   parameters.detector.name =
       read.live().choice("detector", "select", sweep_guard_core::detectorNames(),

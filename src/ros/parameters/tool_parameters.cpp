@@ -85,11 +85,6 @@ void checkJoints(const Parameters& parameters) {
   }
 }
 
-// By the default name, which tf does not know.
-bool isPlacedByTf(const Parameters& parameters) {
-  return parameters.tool_source != ToolSource::kTopic && parameters.tool_frame == ToolModelOptions().frame;
-}
-
 void readRobot(ParameterReader& read, const std::string& parameter, const ToolModelOptions& options,
                Parameters& parameters) {
   const std::string urdf = read.searchText(parameter);
@@ -99,7 +94,6 @@ void readRobot(ParameterReader& read, const std::string& parameter, const ToolMo
   }
   try {
     ToolModel model = loadToolModel(urdf, options);
-    if (isPlacedByTf(parameters)) parameters.tool_frame = model.frame;
     parameters.fixed_joints = options.joints;
     parameters.tool_description = describe(model, parameter, parameters);
     parameters.robot = model.robot;
@@ -191,7 +185,6 @@ void readTool(ParameterReader& read, const Parameters* before, Parameters& param
     parameters.robot = before->robot;
     parameters.link_shapes = before->link_shapes;
     parameters.why_no_robot = before->why_no_robot;
-    parameters.tool_frame = before->tool_frame;
   } else if (type == "urdf") {
     readRobot(read, description, options, parameters);
   } else {
