@@ -40,7 +40,7 @@ std::vector<Eigen::Vector3d> squareCorners(const Eigen::Vector3d& center, double
 
 }  // namespace
 
-GuardProbe::GuardProbe(bool drives_clock, PoseSource pose_source) : time_(drives_clock ? 1000.0 : 0.0) {
+GuardProbe::GuardProbe(bool drives_clock, ProbeSource pose_source) : time_(drives_clock ? 1000.0 : 0.0) {
   const auto wake = [this](const ros::SingleSubscriberPublisher&) { changed_.notify_all(); };
   pose_publisher_ = node_.advertise<geometry_msgs::PoseStamped>("tool_pose", 10000, wake);
   mesh_publisher_ = node_.advertise<sweep_guard::DeformableMesh>("mesh", 100, wake);
@@ -68,7 +68,7 @@ GuardProbe::GuardProbe(bool drives_clock, PoseSource pose_source) : time_(drives
   spinner_.start();
   const auto heard = [](const ros::Subscriber& subscriber) { return subscriber.getNumPublishers() > 0; };
   await("the guard's connections", [&] {
-    return (pose_source == PoseSource::kTf || pose_publisher_.getNumSubscribers() > 0) &&
+    return (pose_source == ProbeSource::kTf || pose_publisher_.getNumSubscribers() > 0) &&
            mesh_publisher_.getNumSubscribers() > 0 && vertices_publisher_.getNumSubscribers() > 0 &&
            tf_publisher_.getNumSubscribers() > 0 && std::all_of(subscribers_.begin(), subscribers_.end(), heard) &&
            !warnings_.empty() && !configuration_.doubles.empty() && check_sweep_.exists() && predict_.exists() &&

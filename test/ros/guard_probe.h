@@ -35,14 +35,14 @@ inline double secondsSince(std::chrono::steady_clock::time_point begin) {
 }
 
 /// Where the guard is configured to take the tool's pose from.
-enum class PoseSource { kTopic, kTf };
+enum class ProbeSource { kTopic, kTf };
 
 /// Publishes the inputs of a running guard, keeps its outputs, and waits for events. Drives the clock under simulated
 /// time.
 class GuardProbe {
  public:
   /// Returns when all connections to the guard exist. @throws std::runtime_error after 20 s
-  explicit GuardProbe(bool drives_clock, PoseSource pose_source = PoseSource::kTopic);
+  explicit GuardProbe(bool drives_clock, ProbeSource pose_source = ProbeSource::kTopic);
 
   /// Moves the clock and returns when the guard has noticed.
   void setClock(ros::Time time);

@@ -28,7 +28,7 @@ ros::Publisher& jointPublisher() {
   return publisher;
 }
 
-ros::Publisher& otherRobot() {
+ros::Publisher& secondDriver() {
   static ConnectedPublisher<sensor_msgs::JointState> publisher("/other_robot/joint_states");
   return *publisher;
 }
@@ -48,7 +48,7 @@ GuardProbe& jointProbe() {
   static bool is_placed = false;
   if (!is_placed) placeBase(1.0);
   is_placed = true;
-  static GuardProbe probe(/*drives_clock=*/true, PoseSource::kTf);
+  static GuardProbe probe(/*drives_clock=*/true, ProbeSource::kTf);
   return probe;
 }
 
@@ -280,7 +280,7 @@ TEST_F(JointStatesTest, JointsThatTwoNodesPublishAreNeverClear) {
     int steps = 0;
     const auto hold_against = [&](const std::function<bool(const Warning&)>& fits) {
       return holdUntil(kStraight, [&](const Warning& warning) {
-        if (++steps % 3 == 0) publish(others, otherRobot());
+        if (++steps % 3 == 0) publish(others, secondDriver());
         return fits(warning);
       });
     };

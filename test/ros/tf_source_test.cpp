@@ -17,7 +17,7 @@ Eigen::Isometry3d pointingDownAt(double z) {
 }
 
 GuardProbe& tfProbe() {
-  static GuardProbe probe(/*drives_clock=*/true, PoseSource::kTf);
+  static GuardProbe probe(/*drives_clock=*/true, ProbeSource::kTf);
   return probe;
 }
 
