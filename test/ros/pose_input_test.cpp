@@ -215,16 +215,19 @@ TEST_F(RestingToolTest, IsWhereItIsNowWhileItsTransformsLieAheadUntilTheyMove) {
   awaitFrame("base");
   const std::uint64_t faults = monitor_.checkpoint().faults;
   const auto place = [this](double ahead, double z) {
-    transforms_.publish(transform("base", "arm", now_ + ros::Duration(ahead), z));
-    awaitArm(now_ + ros::Duration(ahead));
+    const ros::Time stamp = ros::Time::now() + ros::Duration(ahead);
+    transforms_.publish(transform("base", "arm", stamp, z));
+    awaitArm(stamp);
   };
-  for (const double ahead : {0.0, 4.0, 6.0, 8.0}) place(ahead, 0.5);
-  for (const auto& pose : take(4)) {
+  place(0.0, 0.5);
+  for (const double ahead : {0.9, 0.92, 0.95}) {
+    place(ahead, 0.5);
+    const auto pose = take(1).back();
     EXPECT_NEAR(pose.X_WT.translation().z(), 1.5, 1e-9);
     EXPECT_LE(pose.stamp, now().stamp);
   }
   EXPECT_EQ(monitor_.checkpoint().faults, faults) << text();
-  place(9.0, 0.7);
+  place(1.5, 0.7);
   while (monitor_.checkpoint().faults == faults) std::this_thread::yield();
   EXPECT_NE(text().find("stamp lies in the future"), std::string::npos) << text();
 }

@@ -47,12 +47,11 @@ bool FrameBuffer::setStatic(const TransformStamped& transform, const std::string
 
 bool FrameBuffer::setMoving(const TransformStamped& transform, const std::string& publisher) {
   const std::string& child = transform.child_frame_id;
-  const bool begins = !moves(child);
   if (!isNew(child, transform.header.stamp)) return false;
   const auto rest = static_.find(child);
   if (rest == static_.end()) return buffer_.setTransform(transform, publisher, /*is_static=*/false);
   buffer_.setTransform(toMover(transform), publisher, /*is_static=*/false);
-  if (begins) beginToMove(rest->second, transform.header.stamp, publisher);
+  if (on_mover_.count(child) == 0) beginToMove(rest->second, transform.header.stamp, publisher);
   return true;
 }
 
@@ -81,6 +80,7 @@ void FrameBuffer::beginToMove(const TransformStamped& rest, ros::Time first, con
   stand.child_frame_id = rest.child_frame_id;
   stand.transform.rotation.w = 1.0;
   buffer_.setTransform(stand, publisher, /*is_static=*/true);
+  on_mover_.insert(rest.child_frame_id);  // last: what fails is tried again
 }
 
 TransformStamped FrameBuffer::lookup(const std::string& target, const std::string& source, ros::Time stamp) const {

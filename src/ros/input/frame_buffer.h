@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <unordered_map>
 
@@ -47,6 +48,7 @@ class FrameBuffer {
 
   std::map<std::string, geometry_msgs::TransformStamped> static_;  // by child, the newest; it may move since
   std::unordered_map<std::string, std::deque<ros::Time>> stamps_;  // ascending, by child that moves
+  std::set<std::string> on_mover_;                                 // of static_, what has begun to move
   tf2_ros::Buffer buffer_;
 };
 

@@ -80,6 +80,7 @@ void Frames::accept(const geometry_msgs::TransformStamped& transform, const std:
   if (!is_static) checkStamp(transform.header.stamp);
   countFrames(transform);
   const std::string publisher = printable(node);
+  const std::uint64_t changes = staticChanges();  // counted by this thread alone
   {
     const sweep_guard_core::Lock lock(order_mutex_);
     if (is_static && buffer_.moves(child)) {
@@ -88,6 +89,7 @@ void Frames::accept(const geometry_msgs::TransformStamped& transform, const std:
     }
     if (!is_static || !isHeldBack(transform, publisher)) set(transform, publisher, is_static);
   }
+  if (staticChanges() != changes) on_static_change_(transform.header.frame_id, child);
   refused_.accepted(child);
   if (is_static || !tree_.isUsed(child)) return;
   notePublisher(transform, node);
@@ -151,18 +153,15 @@ bool Frames::isHeldBack(const geometry_msgs::TransformStamped& transform, const 
   const bool same =
       known->second.header.frame_id == transform.header.frame_id && known->second.transform == transform.transform;
   known->second = transform;
-  {
-    const sweep_guard_core::Lock lock(changes_mutex_);
-    if (same) return held_back_.count(child) != 0;
-    if (!tree_.isUsed(child)) {
-      held_back_.erase(child);  // one that counted then would replace it later
-      return false;
-    }
-    if (held_back_.empty()) held_back_since_ = std::chrono::steady_clock::now();
-    held_back_[child] = {transform, publisher};
-    ++static_changes_;
+  const sweep_guard_core::Lock lock(changes_mutex_);
+  if (same) return held_back_.count(child) != 0;
+  if (!tree_.isUsed(child)) {
+    held_back_.erase(child);  // one that counted then would replace it later
+    return false;
   }
-  on_static_change_(transform.header.frame_id, transform.child_frame_id);
+  if (held_back_.empty()) held_back_since_ = std::chrono::steady_clock::now();
+  held_back_[child] = {transform, publisher};
+  ++static_changes_;
   return true;
 }
 

@@ -72,12 +72,14 @@ std::optional<std::uint32_t> PoseInput::publishers() const {
   return subscriber_ ? std::optional(subscriber_.getNumPublishers()) : std::nullopt;
 }
 
-void PoseInput::onMessage(const ros::MessageEvent<const geometry_msgs::PoseStamped>& event) {
+void PoseInput::onMessage(const ros::MessageEvent<const geometry_msgs::PoseStamped>& event) try {
   const geometry_msgs::PoseStamped& msg = *event.getConstMessage();
   countLost(event.getPublisherName(), msg.header.seq);
   const sweep_guard_core::Timestamps timestamps{fromMsg(msg.header.stamp), std::chrono::steady_clock::now()};
   if (!articulated_) record_.received(timestamps);
   accept({timestamps, msg.header.frame_id, fromMsg(msg.pose), monitor_.checkpoint(), frames_.staticChanges()});
+} catch (...) {  // fromMsg()
+  refuseCaught();
 }
 
 void PoseInput::onJoints(const ros::MessageEvent<const sensor_msgs::JointState>& event) {
@@ -194,8 +196,10 @@ void PoseInput::addPoseOfFrame(sweep_guard_core::Time stamp, bool rests) {
 
 // A lookup may wait for the listener: not in the thread that calls.
 void PoseInput::addRestingPose() {
-  if (live_.initial().tool_source != ToolSource::kTf || !resting_.isDue(now())) return;
+  if (live_.initial().tool_source != ToolSource::kTf || waiting_ > 0 || !resting_.isDue(now())) return;
+  ++waiting_;
   thread_.post([this] {
+    --waiting_;
     try {
       const sweep_guard_core::Time stamp = now().stamp;
       if (resting_.rests(stamp)) addPoseOfFrame(stamp, /*rests=*/true);

@@ -9,6 +9,8 @@ namespace sweep_guard_ros {
 namespace {
 
 constexpr double kRounded = 1e-6;  // [m, rad]
+// A tool whose transforms end is taken for one at rest for so long. robot_state_publisher leads by 0.5 s.
+constexpr auto kMaxLead = std::chrono::seconds(1);
 
 }  // namespace
 
@@ -28,7 +30,8 @@ bool RestingPose::isDue(const sweep_guard_core::Instant& now) {
 
 bool RestingPose::moves(Time newest) {
   const Time at = now().stamp;
-  stays_ahead_ = at != Time() && newest > at + kFutureTolerance && stays(at, newest);
+  const bool leads = at != Time() && newest > at + kFutureTolerance && newest <= at + kMaxLead;
+  stays_ahead_ = leads && stays(at, newest);
   return newest != Time() && !stays_ahead_;
 }
 

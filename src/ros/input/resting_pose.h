@@ -17,7 +17,7 @@ class RestingPose {
   /// up. One thread.
   bool isDue(const sweep_guard_core::Instant& now);
 
-  /// Returns whether a newest transform of the tool is a pose by itself. Not one of stamp 0, and not while transforms lie ahead of now
+  /// Returns whether a newest transform of the tool is a pose by itself. Not one of stamp 0, and not while transforms lie ahead of now by up to 1 s
   /// and the tool stays until then: its poses are those of now, see rests(). If it moves, they may be of a fast clock, and its pose of
   /// now late by that. One thread.
   bool moves(sweep_guard_core::Time newest);
