@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kRounded = 1e-6;  // [m, rad]
 // A tool whose transforms end is taken for one at rest for so long. robot_state_publisher leads by 0.5 s.
-constexpr auto kMaxLead = std::chrono::seconds(1);
+constexpr auto kRestingLead = std::chrono::seconds(1);
 
 }  // namespace
 
@@ -30,7 +30,7 @@ bool RestingPose::isDue(const sweep_guard_core::Instant& now) {
 
 bool RestingPose::moves(Time newest) {
   const Time at = now().stamp;
-  const bool leads = at != Time() && newest > at + kFutureTolerance && newest <= at + kMaxLead;
+  const bool leads = at != Time() && newest > at + kFutureTolerance && newest <= at + kRestingLead;
   stays_ahead_ = leads && stays(at, newest);
   return newest != Time() && !stays_ahead_;
 }
