@@ -483,7 +483,8 @@ TEST(ToolModelTest, RefusesAFileForXacroByWhatXacroWouldReplace) {
       {robot(link("flange", collision("<box size='${width} 1 1'/>"))), "size=\"${width} 1 1\" in <box>"},
       {robot(link("${prefix}flange", kBall)), "name=\"${prefix}flange\" in <link>"},
       {"<robot name='$(arg name)'>" + flange + "</robot>", "name=\"$(arg name)\" in <robot>"},
-      {robot(link("flange", collision("<mesh filename='$(find drill)/drill.stl'/>"))), "$(find drill)/drill.stl"},
+      {robot(link("flange", collision("<mesh filename='$(find drill)/drill.stl'/>"))),
+       "filename=\"$(find drill)/drill.stl\" in <mesh>"},
   };
   for (const Bad& bad : cases) {
     const std::string message = refusal(bad.urdf, toolOf("flange", {}));
