@@ -20,7 +20,7 @@ class InputRecord {
     SteadyTime error_time;             ///< time of the last error
     std::string last_warning = {};     ///< of an anomaly without consequences; empty: none
     SteadyTime warning_time = {};      ///< time of the last warning
-    std::string lacking = {};          ///< why what comes since is no complete input; empty: it is
+    std::string lacking = {};          ///< why the newest inputs are incomplete; empty: they are not
   };
 
   void received(const Timestamps& message) {

@@ -274,7 +274,7 @@ TEST_F(JointStatesTest, BadPositionsAreRefusedByNodeAndJoint) {
   holdUntil(kStraight, isClearNow);
 }
 
-// The other node publishes every third time: what comes in between is swept. It ends after the other has fallen silent.
+// The other node publishes every third time, and positions in between are swept. The fault ends after that node has fallen silent.
 TEST_F(JointStatesTest, JointsThatTwoNodesPublishAreNeverClear) {
   placeSquare("square", {0.0, 0.0, -3.0}, 0.1);
   for (const Positions& others : {kStraight, Positions{{"shoulder", 1.5}}, Positions{{"jaw", 0.0}}}) {

@@ -172,7 +172,7 @@ double shareOf(const SessionLog& log, WarningLevel level) {
   return sweep_guard_core::toSeconds(log.duration(level)) / (1e-3 * kEnd);
 }
 
-// The guard holds for half of the hold time by its clock, as it is told, or for 0.5 s.
+// The guard holds for half of the hold time by its own clock, or for 0.5 s if it cannot be set.
 TEST(HeldWarningsTest, SharesOfLevelsDoNotDependOnTheRate) {
   const auto prompt = [](int) { return 0.5; };
   const SimulatedGuard as_recorded(1.0, 500.0, prompt);
