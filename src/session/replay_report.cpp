@@ -2,27 +2,20 @@
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
-#include <spawn.h>
 #include <std_srvs/SetBool.h>
-#include <sys/wait.h>
 #include <topic_tools/shape_shifter.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <future>
 #include <iostream>
 #include <limits>
-#include <set>
+#include <optional>
 #include <sstream>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -30,12 +23,13 @@
 #include "recording/run_node.h"
 #include "session/held_warnings.h"
 #include "session/patient_call.h"
+#include "session/report_files.h"
 #include "session/session_bag.h"
 #include "session/session_config.h"
 #include "session/session_files.h"
 #include "session/session_log.h"
 #include "session/session_report.h"
-#include "session/session_start.h"
+#include "session/start_publisher.h"
 #include "session/touch_report.h"
 #include "sound/earcon.h"
 #include "sweep_guard/Contacts.h"
@@ -96,34 +90,6 @@ SweepContact toSweepContact(const sweep_guard::Contacts& contacts, const sweep_g
     contact.tool_link = impact.tool_link;
   }
   return contact;
-}
-
-void write(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream stream(path);
-  stream << text << std::flush;
-  if (!stream) throw InvalidInput(path.string() + ": cannot be written; give output:=FOLDER");
-}
-
-/// Those of an earlier report into the same folder do not belong to the new tables.
-void removePictures(const std::filesystem::path& folder) {
-  std::error_code none;
-  for (const char* const picture : {"timeline.png", "contacts.png", "touches.png"}) {
-    std::filesystem::remove(folder / picture, none);
-  }
-}
-
-/// Has plot.py draw the CSV files of a report. It is beside this program, and says what it lacks.
-bool drawPictures(std::string folder, std::string name) {
-  std::string program = std::filesystem::read_symlink("/proc/self/exe").replace_filename("plot.py");
-  const std::array<char*, 4> arguments{program.data(), folder.data(), name.data(), nullptr};
-  pid_t process = 0;
-  if (posix_spawn(&process, program.c_str(), nullptr, nullptr, arguments.data(), environ) != 0) {
-    ROS_WARN("no pictures: %s cannot be run: is python3 installed?", program.c_str());
-    return false;
-  }
-  int status = 0;
-  while (waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
-  return status == 0;
 }
 
 class ReplayReport {
@@ -234,6 +200,7 @@ class ReplayReport {
   // The player answers once each topic has a subscriber.
   void unpause(const std::string& service) {
     playing_ = true;
+    start_->beginToPlay();
     std::future<bool> answer = startCall([service] {
       std_srvs::SetBool pause;
       pause.request.data = 0;
@@ -249,36 +216,19 @@ class ReplayReport {
   // The player knows nothing of what was recorded before its start, or the last message of a publisher at the most. Vertices and
   // intentions need their mesh.
   void publishStart() {
-    start_ = readStart(files_, topics_, bag_.start);
+    start_.emplace(files_, topics_, bag_.start, guard_.getNamespace());
     publish(kStaticTransformsTopic, &SessionStart::transforms);
     publish(topics_.mesh, &SessionStart::meshes);
-    if (!start_.meshes.empty()) waitUntil([this] { return knows_mesh_; }, kAnswerTimeout);
+    if (!start_->start().meshes.empty()) waitUntil([this] { return knows_mesh_; }, kAnswerTimeout);
     publish(topics_.mesh_vertices, &SessionStart::vertices);
     publish(kIntendTopic, &SessionStart::intends);
   }
 
-  // Gives them to each subscriber that comes, as one publisher for each would that latches.
   template <typename Pointer>
   void publish(const std::string& topic, std::vector<Pointer> SessionStart::*messages) {
-    if ((start_.*messages).empty()) return;
-    using Message = std::remove_const_t<typename Pointer::element_type>;
-    const ros::SubscriberStatusCallback give = [this, topic,
-                                                messages](const ros::SingleSubscriberPublisher& subscriber) {
-      const SessionStart known = knownOn(topic);
-      for (const Pointer& message : known.*messages) subscriber.publish(*message);
-      if (subscriber.getSubscriberName() == guard_.getNamespace()) given_.insert(topic);
-    };
-    publishers_.push_back(node_.advertise<Message>(topic, kQueue, give));
-    require([this, &topic] { return given_.count(topic) > 0; }, "the guard does not subscribe to " + topic);
-  }
-
-  // Who comes while it is played gets what counts by now of what is latched as a rule.
-  SessionStart knownOn(const std::string& topic) const {
-    if (!playing_) return start_;
-    SessionTopics latched;
-    if (topic == topics_.mesh) latched.mesh = topic;
-    return topic == topics_.mesh || topic == kStaticTransformsTopic ? readStart(files_, latched, now())
-                                                                    : SessionStart();
+    if ((start_->start().*messages).empty()) return;
+    start_->publish(topic, messages);
+    require([this, &topic] { return start_->hasGiven(topic); }, "the guard does not subscribe to " + topic);
   }
 
   // The guard holds a warning by the clock of the machine, which is not that of the session. While it holds one, it
@@ -373,7 +323,7 @@ class ReplayReport {
   Duration hold_time_;  // of the guard
   SessionTopics topics_;
   SessionBag bag_;
-  SessionStart start_;
+  std::optional<StartPublisher> start_;
   SessionLog log_;
   std::vector<GuardWarning> heard_;
   std::vector<Time> touched_at_;  // stamps, ascending
@@ -388,8 +338,6 @@ class ReplayReport {
   ros::Subscriber warning_;
   std::vector<ros::Subscriber> touched_;
   std::vector<ros::Subscriber> subscribers_;
-  std::vector<ros::Publisher> publishers_;
-  std::set<std::string> given_;  // topics on which the guard has what was before
 };
 
 }  // namespace
