@@ -77,8 +77,9 @@ void PolynomialFit<N>::add(Time stamp, const Values& values, Duration least_span
 template <int N>
 void PolynomialFit<N>::replaceNewest(const Values& values) {
   assert(!samples_.empty());
-  samples_.back().value = values;
-  rebuild();
+  Sample& newest = samples_.back();
+  fit_.correct(regressors(newest), values - newest.value);
+  newest.value = values;
 }
 
 template <int N>
@@ -94,7 +95,12 @@ Duration PolynomialFit<N>::span() const {
 
 template <int N>
 void PolynomialFit<N>::include(const Sample& sample) {
-  fit_.add(legendre(toSeconds(sample.stamp - middle_) / half_width_), sample.value - origin_);
+  fit_.add(regressors(sample), sample.value - origin_);
+}
+
+template <int N>
+typename PolynomialFit<N>::Curve::Fit::Regressors PolynomialFit<N>::regressors(const Sample& sample) const {
+  return legendre(toSeconds(sample.stamp - middle_) / half_width_);
 }
 
 template <int N>
@@ -105,7 +111,7 @@ void PolynomialFit<N>::dropOld(Duration least_span) {
   while (samples_.size() > kept && samples_.front().stamp < oldest && samples_[1].stamp <= spanned) {
     const Sample& old = samples_.front();
     const double weight = std::pow(forgetting_factor_, static_cast<double>(samples_.size() - 1));
-    fit_.add(legendre(toSeconds(old.stamp - middle_) / half_width_), old.value - origin_, -weight);
+    fit_.add(regressors(old), old.value - origin_, -weight);
     samples_.pop_front();
   }
 }

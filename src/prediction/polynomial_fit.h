@@ -64,6 +64,7 @@ class PolynomialFit {
   using Sample = StampedValue<Values>;
 
   void include(const Sample& sample);
+  typename Curve::Fit::Regressors regressors(const Sample& sample) const;
   void dropOld(Duration least_span);
   void rebuild();
 

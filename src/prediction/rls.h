@@ -30,6 +30,12 @@ class Rls {
     projection_.noalias() += weight * regressors * outputs.transpose();
   }
 
+  /// Changes the outputs of an observation of weight 1.
+  /// @param change  what they are now, less what they were
+  void correct(const Regressors& regressors, const Outputs& change) {
+    projection_.noalias() += regressors * change.transpose();
+  }
+
   /// Returns the coefficients that fit best: one column per output.
   /// @param n      number of regressors used, from the first; 1 to N
   /// @param prior  information that every coefficient is 0, >= 0
