@@ -133,7 +133,8 @@ double IntendedTriangles::reachBehind(const Eigen::Vector3d& normal) {
 void IntendedTouches::update(const SweepReport& report, const PoseWithFrames& pose, const Eigen::Isometry3d& X_WB,
                              const Tool& body, const Intentions& intentions) {
   if (intentions.empty()) return clear();
-  for (auto& [id, links] : links_) {
+  for (auto entry = links_.begin(); entry != links_.end();) {
+    auto& [id, links] = *entry;
     const auto same = [&, &id = id](const SweptObject& object) { return object.workpiece->id == id; };
     const auto object = std::find_if(report.objects.begin(), report.objects.end(), same);
     for (auto link = links.begin(); link != links.end();) {
@@ -141,6 +142,7 @@ void IntendedTouches::update(const SweepReport& report, const PoseWithFrames& po
           object == report.objects.end() || hasLeft(*link, *object->workpiece, pose, X_WB, body, intentions);
       link = is_over ? links.erase(link) : std::next(link);
     }
+    entry = links.empty() ? links_.erase(entry) : std::next(entry);
   }
   for (const SweptObject& object : report.objects) {
     for (const TriangleContact& contact : object.result.in_contact)

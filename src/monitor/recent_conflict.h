@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "sweep_guard/common/time.h"
+#include "sweep_guard/common/stamped_pose.h"
 
 namespace sweep_guard_core {
 
@@ -15,19 +15,15 @@ constexpr Duration kConflictShown = std::chrono::milliseconds(1500);
 /// The newest conflict of publishers, while it counts. One thread.
 class RecentConflict {
  public:
-  void note(const std::string& text, SteadyTime now) { newest_ = Found{text, now}; }
+  void note(const std::string& text, SteadyTime now) { newest_ = {now, text}; }
 
   /// Returns the text of the conflict that was found within the last 1.5 s; empty: none was.
   std::string text(SteadyTime now) const {
-    return newest_ && now - newest_->time <= kConflictShown ? newest_->text : "";
+    return newest_ && now - newest_->stamp <= kConflictShown ? newest_->value : "";
   }
 
  private:
-  struct Found {
-    std::string text;
-    SteadyTime time;
-  };
-  std::optional<Found> newest_;
+  std::optional<StampedValue<std::string, SteadyTime>> newest_;
 };
 
 }  // namespace sweep_guard_core

@@ -39,8 +39,9 @@ Values readValues(const fs::path& path) {
   std::ifstream stream(path);
   for (std::string line; std::getline(stream, line);) {
     const std::size_t indent = line.find_first_not_of(' ');
-    const std::size_t colon = line.find(':');
-    if (indent == std::string::npos || line[indent] == '#' || colon == std::string::npos) continue;
+    if (indent == std::string::npos || line[indent] == '#') continue;
+    const std::size_t colon = line.find(':', line[indent] == '"' ? line.find('"', indent + 1) : indent);
+    if (colon == std::string::npos) continue;
     groups.resize(std::min(indent / 2, groups.size()));
     const std::string name = withoutQuotes(line.substr(indent, colon - indent));
     std::string prefix;

@@ -4,7 +4,9 @@
 #include <ros/ros.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <chrono>
 #include <future>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
@@ -13,6 +15,14 @@
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
+
+/// The clock stands still until it is set, and goes on as that of the machine when this ends.
+class DrivenClock {
+ public:
+  explicit DrivenClock(ros::Time time) { set(time); }
+  ~DrivenClock() { ros::Time::init(); }
+  void set(ros::Time time) { ros::Time::setNow(time); }
+};
 
 /// Publishes the static transform of a base, and that of an arm which moves in it.
 class BaseAndArm : public testing::Test {
@@ -35,11 +45,19 @@ class BaseAndArm : public testing::Test {
   }
   void placeBase(double z) { static_transforms_.publish(transform(parameters_.fixed_frame, "base", ros::Time(), z)); }
   void moveArm(ros::Time stamp) { transforms_.publish(transform("base", "arm", stamp, 0.0)); }
+  template <typename Fits>
+  static void await(const std::string& what, const Fits& fits) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (!fits()) {
+      if (std::chrono::steady_clock::now() > end) throw std::runtime_error("waited for " + what);
+      std::this_thread::yield();
+    }
+  }
   void awaitFrame(const std::string& frame) const {
-    while (!frames_.newest(parameters_.fixed_frame, frame)) std::this_thread::yield();
+    await(frame, [&] { return frames_.newest(parameters_.fixed_frame, frame).has_value(); });
   }
   void awaitArm(ros::Time stamp) const {
-    while (frames_.newest(parameters_.fixed_frame, "arm") != fromMsg(stamp)) std::this_thread::yield();
+    await("the arm", [&] { return frames_.newest(parameters_.fixed_frame, "arm") == fromMsg(stamp); });
   }
 
   ros::NodeHandle node_;

@@ -280,6 +280,25 @@ std::string sources(const std::vector<std::string>& folders) {
   return std::regex_replace(all, std::regex("\"\\s*\n\\s*\""), "");  // texts that continue on the next line
 }
 
+// A launch group then needs no argument for it. What is recorded has absolute names.
+TEST(DocumentsTest, NothingLooksForTheGuardAtTheRoot) {
+  std::string launched;
+  for (const auto& file : std::filesystem::directory_iterator(kRoot / "launch")) launched += contents(file.path());
+  const std::regex found("name=\"(guard|warning)\" (default|value)=\"([^\"]*)\"");
+  int places = 0;
+  for (std::sregex_iterator one(launched.begin(), launched.end(), found), end; one != end; ++one, ++places) {
+    EXPECT_NE((*one)[3].str().front(), '/') << one->str();
+  }
+  EXPECT_GE(places, 10);
+  for (const std::filesystem::path folder : {"src", "config"}) {
+    for (const auto& file : std::filesystem::recursive_directory_iterator(kRoot / folder)) {
+      const bool of_recordings = file.path().stem() == "recorded_topics" || file.path().stem() == "session_bag";
+      if (file.is_directory() || of_recordings) continue;
+      EXPECT_EQ(contents(file.path()).find("\"" + kGuard), std::string::npos) << file.path();
+    }
+  }
+}
+
 TEST(DocumentsTest, TroubleshootingQuotesWhatTheCodeSays) {
   const std::string said = sources({"src"});
   size_t quotes = 0;

@@ -196,6 +196,23 @@ class RefusedTransformsTest : public StaticFramesTest {
   double others_ = 0.0;
 };
 
+TEST(RefusedFramesTest, AFrameBeyondAThousandIsToldToAllForGood) {
+  RefusedTransforms refused;
+  for (int i = 0; i < 1000; ++i) refused.add("made_up_" + std::to_string(i), "made up");
+  const auto of = [&](const std::string& frame) {
+    return refused.find([&](const std::string& child) { return child == frame; });
+  };
+  for (const std::string frame : {"tool", "table", "camera"}) {
+    EXPECT_EQ(of(frame).empty(), frame == "tool");
+    refused.add(frame, "transform to '" + frame + "' refused");
+    EXPECT_NE(of(frame).find("the first after these was: transform to 'tool' refused"), std::string::npos);
+    refused.accepted(frame);
+    EXPECT_NE(of(frame), "");
+  }
+  refused.add("made_up_3", "again");
+  EXPECT_EQ(of("made_up_3"), "again");
+}
+
 // As typed by hand, and as filters leave them. A pose is taken with these, too.
 TEST_F(RefusedTransformsTest, AQuaternionOfAlmostUnitLengthIsOneOfUnitLength) {
   for (const Eigen::Vector4d& xyzw :

@@ -203,7 +203,7 @@ TEST_F(MotionGuardNodeTest, AToolThatOnlyStaticTransformsPlaceIsNotMovedAndTheTe
       statuses.await([&](const MotionStatus& next) { return has(next.text, why); }, "why nothing moves");
   EXPECT_EQ(status.code, MotionStatus::HALT_FOR_COLLISION);
   EXPECT_EQ(status.cause, "no tool pose yet");
-  for (int i = 0; i < 20; ++i) guarded.await([](const Twist& sent) { return isZero(sent); }, "zero");
+  for (int i = 0; i < 20; ++i) EXPECT_TRUE(isZero(guarded.await([](const Twist&) { return true; }, "what is sent")));
   Listener<diagnostic_msgs::DiagnosticArray> diagnostics(node_, "/diagnostics");
   const auto says_why = [&](const auto& line) { return line.message.find(why) == 0; };
   diagnostics.await(

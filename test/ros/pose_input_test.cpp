@@ -28,6 +28,7 @@ class PoseInputTest : public BaseAndArm {
     std::vector<sweep_guard_core::PoseWithFrames> taken;
     sweep_guard_core::WorkQueue::Work work;
     while (taken.empty() || taken.back().anew || taken.back().stamp != fromMsg(stamp)) {
+      await("a pose", [&] { return queue_.hasPoses(); });
       queue_.take(work);
       for (const sweep_guard_core::QueuedPose& queued : work.poses) taken.push_back(queued.pose);
     }
@@ -53,24 +54,25 @@ TEST_F(PoseInputTest, NoPoseOfALongBacklogIsLost) {
   EXPECT_EQ(takeUpTo(end).size(), static_cast<size_t>(kPoses));
 }
 
-// The clock comes at 10 Hz. A clock that comes before the pose waits for it is tried again.
+// The clock comes at 10 Hz. One that comes before the pose waits for it is tried again, and one that comes too late for it.
 TEST_F(PoseInputTest, APoseThatWaitsForTheClockIsReceivedWhenThatHasCome) {
-  ros::Time clock = ros::Time::now();
+  ros::Time time = ros::Time::now();
+  DrivenClock clock(time);
   const auto waits_for_clock = [&](double ahead) {
-    ros::Time::setNow(clock);
-    const std::uint64_t received = input_.record().summary().received;
-    const ros::Time stamp = clock + ros::Duration(ahead);
+    const auto before = input_.record().summary();
+    const ros::Time stamp = time + ros::Duration(ahead);
     publisher_.publish(poseIn(parameters_.fixed_frame, stamp));
-    while (input_.record().summary().received == received) std::this_thread::yield();
+    await("the pose", [&] { return input_.record().summary().received > before.received; });
     const sweep_guard_core::SteadyTime came = std::chrono::steady_clock::now();
-    clock += ros::Duration(0.1);
-    ros::Time::setNow(clock);
-    return takeUpTo(stamp).back().received >= came;
+    time += ros::Duration(0.1);
+    clock.set(time);
+    await("what becomes of it",
+          [&] { return queue_.hasPoses() || input_.record().summary().refused > before.refused; });
+    return queue_.hasPoses() && takeUpTo(stamp).back().received >= came;
   };
   for (const double ahead : {0.06, 0.08, 0.1}) {
     for (int tries_left = 50; !waits_for_clock(ahead); --tries_left) ASSERT_GT(tries_left, 1) << ahead;
   }
-  ros::Time::init();
 }
 
 class StaticBaseTest : public PoseInputTest {
@@ -127,7 +129,7 @@ TEST_F(StaticBaseTest, APoseThatWaitedIsWhereThingsWereWhenItCame) {
   publishPose("arm", first, 0.1);
   const auto is_refused = [&] { return monitor_.checkpoint().faults > 0; };
   publishPose("arm", now_, 0.5);  // is older: a refusal that tells that the first was received
-  while (!is_refused()) std::this_thread::yield();
+  await("a refusal", is_refused);
   placeBase(3.0);
   changed_.get_future().wait();
   publishPose("arm", second, -0.5);
@@ -159,9 +161,11 @@ class RestingToolTest : public BaseAndArm {
     std::vector<sweep_guard_core::PoseWithFrames> taken;
     sweep_guard_core::WorkQueue::Work work;
     while (taken.size() < count) {
-      input_.addRestingPose();
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-      if (!queue_.hasPoses()) continue;
+      await("a pose", [&] {
+        input_.addRestingPose();
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        return queue_.hasPoses();
+      });
       queue_.take(work);
       for (const sweep_guard_core::QueuedPose& queued : work.poses) taken.push_back(queued.pose);
     }
@@ -214,11 +218,15 @@ TEST_F(RestingToolTest, MovesWithTheFirstTransformsThatMoveWhateverTheirDelay) {
 }
 
 TEST_F(RestingToolTest, IsWhereItIsNowWhileItsTransformsLieAheadUntilTheyMove) {
+  ros::Time time = ros::Time::now();
+  DrivenClock clock(time);
   placeBase(1.0);
   awaitFrame("base");
   const std::uint64_t faults = monitor_.checkpoint().faults;
-  const auto place = [this](double ahead, double z) {
-    const ros::Time stamp = ros::Time::now() + ros::Duration(ahead);
+  const auto place = [&](double ahead, double z) {
+    time += ros::Duration(0.1);
+    clock.set(time);
+    const ros::Time stamp = time + ros::Duration(ahead);
     transforms_.publish(transform("base", "arm", stamp, z));
     awaitArm(stamp);
   };
@@ -231,7 +239,7 @@ TEST_F(RestingToolTest, IsWhereItIsNowWhileItsTransformsLieAheadUntilTheyMove) {
   }
   EXPECT_EQ(monitor_.checkpoint().faults, faults) << text();
   place(1.5, 0.7);
-  while (monitor_.checkpoint().faults == faults) std::this_thread::yield();
+  await("a fault", [&] { return monitor_.checkpoint().faults != faults; });
   EXPECT_NE(text().find("stamp lies in the future"), std::string::npos) << text();
 }
 
@@ -242,7 +250,7 @@ TEST_F(RestingToolTest, ATransformThatIsRefusedIsInTheTextAndTheRecord) {
     arm.transforms[0].transform.rotation.w = length;
     const std::uint64_t faults = monitor_.checkpoint().faults;
     static_transforms_.publish(arm);
-    while (monitor_.checkpoint().faults == faults) std::this_thread::yield();
+    await("a fault", [&] { return monitor_.checkpoint().faults != faults; });
     EXPECT_NE(text().find("transform to 'arm' from node '"), std::string::npos) << text();
     EXPECT_NE(text().find("orientation is not a unit quaternion"), std::string::npos) << text();
     EXPECT_NE(text().find(input_.record().summary().last_error), std::string::npos) << text();
@@ -256,7 +264,7 @@ TEST_F(RestingToolTest, TransformsThatMoveWithoutAStampAreRefusedInTheirWords) {
   awaitFrame("arm");
   const std::uint64_t faults = monitor_.checkpoint().faults;
   input_.addRestingPose();
-  while (monitor_.checkpoint().faults == faults) std::this_thread::yield();
+  await("a fault", [&] { return monitor_.checkpoint().faults != faults; });
   EXPECT_NE(text().find("the transforms to 'arm' have the stamp 0: stamp each"), std::string::npos) << text();
 }
 

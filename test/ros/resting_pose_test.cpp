@@ -45,6 +45,20 @@ TEST_F(RestingPoseTest, IsDueAtTheLeastRateByEitherClock) {
   EXPECT_FALSE(isDue(1010, 6140));
 }
 
+TEST_F(RestingPoseTest, IsDueTwiceInATimeoutThatIsShorterThanTheCycle) {
+  for (const int timeout_ms : {100, 40, 20}) {
+    Parameters parameters = tool_;
+    parameters.limits.pose_timeout = milliseconds(timeout_ms);
+    const LiveParameters live(parameters);
+    RestingPose resting(live, frames_);
+    int asked = 0;
+    for (int ms = 5000; ms < 6000; ++ms) {
+      asked += resting.isDue({sweep_guard_core::Time(milliseconds(ms)), SteadyTime(milliseconds(ms))}) ? 1 : 0;
+    }
+    EXPECT_EQ(asked, 2000 / timeout_ms);
+  }
+}
+
 TEST_F(RestingPoseTest, RestsWhileNoTransformMovesIt) {
   const sweep_guard_core::Time stamp = fromMsg(now_);
   EXPECT_FALSE(resting_.rests(stamp)) << "is not known";
@@ -59,6 +73,7 @@ TEST_F(RestingPoseTest, RestsWhileNoTransformMovesIt) {
 
 // As those of a static transform that is published ahead by its period.
 TEST_F(RestingPoseTest, RestsWhereTransformsThatLieAheadDoNotMoveIt) {
+  const DrivenClock clock(now_);
   placeBase(1.0);
   awaitFrame("base");
   moveArm(now_);
@@ -66,7 +81,7 @@ TEST_F(RestingPoseTest, RestsWhereTransformsThatLieAheadDoNotMoveIt) {
   EXPECT_TRUE(resting_.moves(fromMsg(now_)));
   ros::Time newest;
   const auto moveAhead = [&](double ahead) {
-    newest = ros::Time::now() + ros::Duration(ahead);
+    newest = now_ + ros::Duration(ahead);
     moveArm(newest);
     awaitArm(newest);
     return resting_.moves(fromMsg(newest));
@@ -83,6 +98,7 @@ TEST_F(RestingPoseTest, RestsWhereTransformsThatLieAheadDoNotMoveIt) {
 }
 
 TEST_F(RestingPoseTest, TransformsThatLieFarAheadAreNoRest) {
+  const DrivenClock clock(now_);
   placeBase(1.0);
   awaitFrame("base");
   moveArm(now_);
@@ -104,7 +120,7 @@ TEST_F(RestingPoseTest, TransformsWithoutStampsAreNoRest) {
 
 class FixedToolTest : public RestingPoseTest {
  protected:
-  FixedToolTest() : RestingPoseTest(patient().fixed_frame) {}
+  FixedToolTest() : RestingPoseTest("/" + patient().fixed_frame) {}
 };
 
 TEST_F(FixedToolTest, AToolThatIsTheFixedFrameIsNoRest) { EXPECT_THROW(resting_.rests(fromMsg(now_)), InvalidInput); }

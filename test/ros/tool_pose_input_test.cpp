@@ -21,12 +21,15 @@ class ToolPoseInputTest : public BaseAndArm {
   }
   void restArm() { static_transforms_.publish(transform("base", "arm", ros::Time(), 0.5)); }
   static std::string awaitStandstill(const ToolPoseInput& input) {
-    while (input.standstill().empty()) std::this_thread::yield();
+    await("a standstill", [&] { return !input.standstill().empty(); });
     return input.standstill();
   }
   static Eigen::Vector3d awaitPose(const ToolPoseInput& input, ros::Time stamp) {
     auto pose = input.newest();
-    for (; !pose || pose->timestamps.stamp != fromMsg(stamp); pose = input.newest()) std::this_thread::yield();
+    await("a pose", [&] {
+      pose = input.newest();
+      return pose && pose->timestamps.stamp == fromMsg(stamp);
+    });
     return pose->X_WT.translation();
   }
 
@@ -36,7 +39,7 @@ class ToolPoseInputTest : public BaseAndArm {
 TEST_F(ToolPoseInputTest, IsNoneWhereNoTransformShowsThatTheFrameMoves) {
   const ToolPoseInput base(node_, inTf(world_, "base"), frames_);
   const ToolPoseInput arm(node_, inTf(world_, "arm"), frames_);
-  const ToolPoseInput world(node_, inTf(world_, world_), frames_);
+  const ToolPoseInput world(node_, inTf(world_, "/" + world_), frames_);
   EXPECT_EQ(base.standstill(), "");
   placeBase(1.0);
   moveArm(ros::Time());

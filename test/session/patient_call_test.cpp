@@ -20,7 +20,9 @@ TEST(PatientCallTest, KeepsNobodyWhileItDoesNotReturn) {
   const auto release = std::make_shared<std::promise<bool>>();
   const std::shared_future<bool> released = release->get_future().share();
   std::future<bool> call = startCall([released] { return released.get(); });
-  startCall([released] { return released.get(); });  // whose result is gone at once
+  const auto discard = [released] { startCall([released] { return released.get(); }); };
+  const std::future<void> discarded = std::async(std::launch::async, discard);
+  EXPECT_EQ(discarded.wait_for(std::chrono::seconds(20)), std::future_status::ready);
   EXPECT_FALSE(hasReturned(call));
   release->set_value(true);
   EXPECT_TRUE(call.get());

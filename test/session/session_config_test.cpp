@@ -51,6 +51,14 @@ TEST_F(SessionConfigTest, SaysWhatIsDifferentInTheOthers) {
   EXPECT_TRUE(has(lines[2], "warning/reflex 1.0 instead of not set")) << lines[2];
 }
 
+TEST_F(SessionConfigTest, AKeyMayHaveAColonAndNoQuotes) {
+  const std::string config = write("black_box_1.yaml", "\"stiffness_of\":\n  \"left:drill\": 1.0\n");
+  write("black_box_2.yaml", "stiffness_of:\n  \"left:drill\": 2.0\n");
+  const std::vector<std::string> lines = describeConfig(config, {in("black_box_1.bag"), in("black_box_2.bag")});
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_TRUE(has(lines[1], "with stiffness_of/left:drill 1.0 instead of 2.0")) << lines[1];
+}
+
 TEST_F(SessionConfigTest, NamesOnlyTheFirstOfManyDifferencesAndCutsLongValues) {
   std::string text;
   for (int i = 0; i < 9; ++i) text += "\"p" + std::to_string(i) + "\": 1\n";

@@ -130,7 +130,7 @@ class Frames {
   };
   std::map<std::string, geometry_msgs::TransformStamped> static_transforms_;  // by child; used by the listener only
   // From the decision about a transform until it is set: the listener does not overtake who applies static changes. Held while
-  // on_static_change_ and onChange() are called: they may look up.
+  // onChange() calls back: it may look up.
   sweep_guard_core::Mutex order_mutex_;
   FrameTree tree_;
   RefusedTransforms refused_;

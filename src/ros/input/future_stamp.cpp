@@ -13,11 +13,6 @@ constexpr double kPause = 0.001;  // [s]
 
 }  // namespace
 
-bool liesInFuture(sweep_guard_core::Time stamp) {
-  sweep_guard_core::Timestamps input{stamp, {}};
-  return liesInFuture(input);
-}
-
 bool liesInFuture(sweep_guard_core::Timestamps& input) {
   const sweep_guard_core::Time stamp = input.stamp;
   const sweep_guard_core::Instant begin = now();

@@ -10,12 +10,9 @@ constexpr auto kFutureTolerance = std::chrono::milliseconds(50);
 /// Tells the sender of a refused message what to do.
 constexpr const char* kFutureStampText = "stamp lies in the future: are the clocks synchronized?";
 
-/// Returns whether a stamp lies in the future. Simulated time has its own connection, which a message may overtake: a
-/// stamp less than half a second ahead of it is waited for, for at most half a second of wall time, and so is its first
-/// message.
-bool liesInFuture(sweep_guard_core::Time stamp);
-
-/// The same for an input. One that was waited for is received when the wait ends: it is no backlog.
+/// Returns whether the stamp of an input lies in the future. Simulated time has its own connection, which a message may
+/// overtake: a stamp less than half a second ahead of it is waited for, for at most half a second of wall time, and so is
+/// its first message. What was waited for is received when the wait ends: it is no backlog.
 bool liesInFuture(sweep_guard_core::Timestamps& input);
 
 }  // namespace sweep_guard_ros

@@ -42,7 +42,7 @@ void JointNames::rename(const std::string& in_messages, size_t variable) {
 }
 
 const std::string* JointNames::firstIn(const sensor_msgs::JointState& message) const {
-  const auto is_ours = [this](const std::string& name) { return has(name); };
+  const auto is_ours = [this](const std::string& name) { return variables_.count(name) != 0; };
   const auto first = std::find_if(message.name.begin(), message.name.end(), is_ours);
   return first == message.name.end() ? nullptr : &*first;
 }

@@ -36,8 +36,6 @@ class JointNames {
   void find(const sensor_msgs::JointState& message,
             std::vector<sweep_guard_core::JointTimeline::Position>& positions) const;
 
-  /// Returns whether positions are taken from this name in messages.
-  bool has(const std::string& name_in_messages) const { return variables_.count(name_in_messages) != 0; }
   /// Returns whether a joint of the robot has this name in messages, also one that is fixed or mimics another one.
   bool isOwn(const std::string& name_in_messages) const { return own_.count(name_in_messages) != 0; }
   /// Returns the name in messages of the joint of a variable.

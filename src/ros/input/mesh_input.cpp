@@ -29,7 +29,8 @@ constexpr std::uint32_t kMeshesQueued = 1000;  // each message may be of another
 void checkHeader(const std_msgs::Header& header) {
   if (header.frame_id.empty()) throw InvalidInput("header.frame_id is empty: name the frame of the vertices");
   if (!isName(header.frame_id)) throw InvalidInput("header.frame_id has more than 128 or unprintable characters");
-  if (liesInFuture(fromMsg(header.stamp))) throw InvalidInput(kFutureStampText);
+  sweep_guard_core::Timestamps timestamps{fromMsg(header.stamp), {}};
+  if (liesInFuture(timestamps)) throw InvalidInput(kFutureStampText);
 }
 
 sweep_guard_core::Time latestStamp() { return now().stamp + kFutureTolerance; }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "common/frame_name.h"
 #include "ros/input/future_stamp.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
@@ -170,17 +171,17 @@ void OtherTools::take(size_t tool, const Surface& surface) {
 }
 
 void OtherTools::hear(size_t tool, const sweep_guard::ToolBodies& msg) {
-  const sweep_guard_core::Timestamps timestamps{fromMsg(msg.header.stamp), std::chrono::steady_clock::now()};
+  sweep_guard_core::Timestamps timestamps{fromMsg(msg.header.stamp), std::chrono::steady_clock::now()};
+  const bool is_ahead = liesInFuture(timestamps);
   const sweep_guard_core::Lock lock(mutex_);
   Tool& known = tools_[tool];
   if (known.bodies == 0 || msg.run_id != known.run_id || msg.revision != known.revision)
     throw InvalidInput("its surface has not come");
-  if (msg.header.frame_id != fixed_frame_) {
+  if (!sweep_guard_core::isSameFrame(msg.header.frame_id, fixed_frame_)) {
     throw InvalidInput("its poses are in '" + sweep_guard_core::printable(msg.header.frame_id) + "', not in '" +
                        fixed_frame_ + "': set fixed_frame alike");
   }
-  if (timestamps.stamp == Time() || liesInFuture(timestamps.stamp))
-    throw InvalidInput("the stamp of its pose is 0 or lies in the future");
+  if (timestamps.stamp == Time() || is_ahead) throw InvalidInput("the stamp of its pose is 0 or lies in the future");
   if (msg.bodies.size() != known.bodies) throw InvalidInput("its poses are not of as many bodies as its surface has");
   sweep_guard_core::FrameMotions motions;
   for (size_t body = 0; body < known.bodies; ++body) {

@@ -20,7 +20,8 @@ class RefusedTransforms {
       texts_[child] = text;
     } else if (others_.empty()) {
       others_ =
-          "transforms to more than 1000 frames were refused, and which of them count is not known; the last was: " +
+          "transforms to more than 1000 frames were refused, and which of them count is not known until a restart; the "
+          "first after these was: " +
           text;
     }
   }

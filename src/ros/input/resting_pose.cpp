@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/frame_name.h"
 #include "ros/input/future_stamp.h"
 #include "sweep_guard/ros/conversions.h"
 
@@ -45,7 +46,8 @@ bool RestingPose::stays(Time begin, Time end) const {
 bool RestingPose::rests(Time stamp) const {
   const std::string& fixed_frame = live_.initial().fixed_frame;
   const std::string& tool_frame = live_.initial().tool_frame;
-  if (fixed_frame == tool_frame) throw InvalidInput("tool_frame is fixed_frame, in which it never moves");
+  if (sweep_guard_core::isSameFrame(fixed_frame, tool_frame))
+    throw InvalidInput("tool_frame is fixed_frame, in which it never moves");
   const auto newest = frames_.newest(fixed_frame, tool_frame);
   if (stays_ahead_ && newest && stamp <= *newest) return stays(stamp, *newest);
   if (newest != Time()) return false;

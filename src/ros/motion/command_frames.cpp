@@ -6,14 +6,14 @@
 namespace sweep_guard_ros {
 
 Eigen::Isometry3d newestPose(const Frames& frames, const std::string& target, const std::string& source) {
-  const std::optional<sweep_guard_core::Time> stamp = frames.newest(target, source);
-  const sweep_guard_core::Duration age = now().stamp - stamp.value_or(sweep_guard_core::Time());
-  if (stamp && *stamp != sweep_guard_core::Time() && age > kOldestTransform) {
+  const NewestPose newest = frames.newestPose(target, source);
+  const sweep_guard_core::Duration age = now().stamp - newest.stamp;
+  if (newest.stamp != sweep_guard_core::Time() && age > kOldestTransform) {
     const auto milliseconds = std::chrono::duration_cast<std::chrono::milliseconds>(age).count();
     throw FrameError("the transform from '" + source + "' to '" + target + "' is " + std::to_string(milliseconds) +
                      " ms old");
   }
-  return frames.lookup(target, source, sweep_guard_core::Time());
+  return newest.X;
 }
 
 Eigen::Isometry3d commandFramePose(const Frames& frames, const MotionParameters& parameters, const std::string& frame,

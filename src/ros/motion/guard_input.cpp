@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "common/frame_name.h"
 #include "ros/connection/sole_publisher.h"
 #include "ros/input/future_stamp.h"
 #include "ros/motion/absent_guard.h"
@@ -127,8 +128,8 @@ void GuardInput::acceptWarning(const ros::MessageEvent<const sweep_guard::Warnin
 }
 
 // When time went back, those before are silent soon.
-void GuardInput::checkStamp(const sweep_guard_core::Timestamps& timestamps) const {
-  if (liesInFuture(timestamps.stamp)) throw InvalidInput(kFutureStampText);
+void GuardInput::checkStamp(sweep_guard_core::Timestamps& timestamps) const {
+  if (liesInFuture(timestamps)) throw InvalidInput(kFutureStampText);
   const sweep_guard_core::Lock lock(mutex_);
   if (!newest_.planes) return;
   const sweep_guard_core::Timestamps& before = newest_.planes->timestamps;
@@ -138,7 +139,7 @@ void GuardInput::checkStamp(const sweep_guard_core::Timestamps& timestamps) cons
 }
 
 void GuardInput::checkFrame(const std::string& frame, const std::string& expected) const {
-  if (frame == expected) return;
+  if (sweep_guard_core::isSameFrame(frame, expected)) return;
   throw InvalidInput("it is in the frame '" + sweep_guard_core::printable(frame) + "' and not in '" + expected +
                      "': set fixed_frame and tool_frame as those of the guard");
 }

@@ -46,7 +46,7 @@ class GuardInput {
   void acceptTool(const ros::MessageEvent<const sweep_guard::ToolBalls>& event);
   void acceptWarning(const ros::MessageEvent<const sweep_guard::Warning>& event);
   void refuse(const std::string& topic, const std::string& reason, sweep_guard_core::InputRecord& record);
-  void checkStamp(const sweep_guard_core::Timestamps& timestamps) const;
+  void checkStamp(sweep_guard_core::Timestamps& timestamps) const;
   void checkFrame(const std::string& frame, const std::string& expected) const;
 
   const std::string guard_;

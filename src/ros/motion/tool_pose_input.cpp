@@ -1,5 +1,6 @@
 #include "ros/motion/tool_pose_input.h"
 
+#include "common/frame_name.h"
 #include "ros/input/future_stamp.h"
 #include "ros/motion/command_frames.h"
 #include "sweep_guard/ros/conversions.h"
@@ -57,11 +58,11 @@ std::optional<std::uint32_t> ToolPoseInput::publishers() const {
 }
 
 void ToolPoseInput::onMessage(const geometry_msgs::PoseStamped& msg) {
-  const sweep_guard_core::Timestamps timestamps{fromMsg(msg.header.stamp), std::chrono::steady_clock::now()};
+  sweep_guard_core::Timestamps timestamps{fromMsg(msg.header.stamp), std::chrono::steady_clock::now()};
   record_.received(timestamps);
   try {
     if (timestamps.stamp == sweep_guard_core::Time()) throw InvalidInput("stamp is 0: stamp each pose");
-    if (liesInFuture(timestamps.stamp)) throw InvalidInput(kFutureStampText);
+    if (liesInFuture(timestamps)) throw InvalidInput(kFutureStampText);
     const Eigen::Isometry3d X_WF = nearestInTime(frames_, fixed_frame_, msg.header.frame_id, timestamps.stamp);
     accept(X_WF * fromMsg(msg.pose), timestamps);
   } catch (const sweep_guard_core::Error& error) {
@@ -87,7 +88,8 @@ void ToolPoseInput::onTransforms() {
 
 // Of a frame whose newest transform has the stamp 0. One that is static holds at each time.
 std::string ToolPoseInput::whyItNeverMoves() const {
-  if (fixed_frame_ == tool_frame_) return "tool_frame is fixed_frame, in which it never moves";
+  if (sweep_guard_core::isSameFrame(fixed_frame_, tool_frame_))
+    return "tool_frame is fixed_frame, in which it never moves";
   const bool is_static = frames_.find(fixed_frame_, tool_frame_, sweep_guard_core::Time() + kInstant).has_value();
   if (!is_static) return "the transforms to '" + tool_frame_ + "' have the stamp 0: stamp each";
   return "only static transforms place '" + tool_frame_ + "' in '" + fixed_frame_ +

@@ -77,10 +77,8 @@ sweep_guard_core::InteractionOptions readInteraction(ParameterReader& read) {
   for (const auto& [id, stiffness] :
        read.numbers("interaction/stiffness_of",
                     "~interaction: the stiffness [N/m^3] of some workpieces by their id, in place of "
-                    "interaction/stiffness; 0 to 1e12.")) {
-    if (!(stiffness >= 0.0 && stiffness <= kMaxStiffness)) {
-      throw sweep_guard_core::InvalidInput("parameter interaction/stiffness_of/" + id + " must be 0 to 1e12 N/m^3");
-    }
+                    "interaction/stiffness; 0 to 1e12.",
+                    ParameterReader::Range{0.0, kMaxStiffness, "N/m^3"})) {
     options.stiffness_of[id] = stiffness;
     options.stiffness_of.emplace("/" + id, stiffness);  // YAML's key of an id with a slash at its front has none
   }

@@ -123,8 +123,8 @@ std::vector<ConvexShape> shapesOf(const urdf::Geometry& geometry, const ToolMode
       return {ConvexShape::sphere(size(static_cast<const urdf::Sphere&>(geometry).radius, "sphere's radius"))};
     case urdf::Geometry::BOX: {
       const urdf::Vector3& dim = static_cast<const urdf::Box&>(geometry).dim;
-      return {ConvexShape::box(0.5 * Eigen::Vector3d(size(dim.x, "box's size in x"), size(dim.y, "box's size in y"),
-                                                     size(dim.z, "box's size in z")))};
+      return {ConvexShape::box(0.5 * Eigen::Vector3d{size(dim.x, "box's size in x"), size(dim.y, "box's size in y"),
+                                                     size(dim.z, "box's size in z")})};
     }
     case urdf::Geometry::CYLINDER: {
       const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
