@@ -16,7 +16,7 @@
 namespace sweep_guard_ros {
 
 constexpr size_t kMaxRequest = 1024;  ///< [bytes]; of a request that holds little more than names
-constexpr auto kTransformWait = std::chrono::milliseconds(100);  ///< of a call for a transform
+constexpr auto kTransformWait = std::chrono::milliseconds(100);  ///< of a call for one transform
 constexpr auto kGuardTimeout = std::chrono::seconds(1);          ///< of a call for a guard that is stuck in a sweep
 
 /// Hands the calls of one or more services to a thread that runs them and others. Lets five of these calls in, which wait or

@@ -9,8 +9,8 @@ namespace sweep_guard_ros {
 /// bounded time and calls that compute have a thread each, and a third one does nothing but answer BUSY: with fewer, an
 /// answer would wait for a path test. None of the three waits for another one, so they cannot come to a deadlock.
 struct ServiceThreads {
-  QueueThread brief;     ///< sets something: waits up to 0.5 s until the guard begins, or up to 0.1 s for a transform
-  QueueThread lasting;   ///< tests paths, cuts meshes, makes a tool or a detector, writes parameters
+  QueueThread brief;    ///< sets something: waits up to 0.5 s until the guard begins, or up to 0.1 s for each transform
+  QueueThread lasting;  ///< tests paths, cuts meshes, makes a tool or a detector, writes parameters
   QueueThread refusals;  ///< answers BUSY
 
   /// Starts the threads; the supervisor must outlive them.

@@ -7,8 +7,8 @@ namespace sweep_guard_ros {
 
 // Functions for the bytes of an OBJ or DAE file that find what assimp silently omits or distorts. `format` is obj or dae.
 
-/// Changes text that assimp would omit: removes a byte order mark, and converts to lower case. Blanks the materials of
-/// an OBJ, which are in other files.
+/// Changes text of an OBJ that assimp would omit: removes a byte order mark, and converts to lower case. Blanks its
+/// materials, which are in other files. Leaves other formats as they are.
 void simplify(std::string& bytes, const std::string& format);
 
 /// Checks a file for contents that assimp does not read.
