@@ -85,7 +85,7 @@ TEST(PolynomialFitTest, KeepsSlowSamplesThoughTheyAreOlderThanTheWindow) {
 TEST(PolynomialFitTest, CorrectsItsNewestSample) {
   PolynomialFit<6> fit = fitOf(staircase, 1, 0.2, 0.01);
   fit.add(at(0.21), Vector6d::Constant(99.0));
-  for (int i = 0; i < 1000; ++i) fit.replaceNewest(Vector6d::Constant(0.1 * i));
+  for (int i = 0; i < 1000; ++i) fit.replaceNewest(Vector6d::Constant(0.001 * i));
   fit.replaceNewest(staircase(0.21));
   EXPECT_NEAR(fit.curve({0, 1, 0, 0, 0, 0}).at(at(1.0))[1], staircase(1.0)[1], 1e-12);
 }
