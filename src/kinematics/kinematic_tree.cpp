@@ -59,7 +59,7 @@ KinematicTree::KinematicTree(std::vector<JointVariable> variables, std::vector<T
     const size_t body_above = link.parent == TreeLink::kRoot ? TreeLink::kRoot : bodies_[link.parent];
     bodies_.push_back(link.moves() ? i : body_above);
     if (link.type == JointType::kFixed || link.joint == variables_[link.variable].name) continue;
-    mimics_[link.joint] = {link.variable, link.multiplier, link.offset};
+    mimics_[link.joint] = link;
   }
   for (size_t i = 0; i < variables_.size(); ++i) variables_[i].turns = !slides(i, variables_[i], links_);
 }

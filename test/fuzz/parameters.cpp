@@ -9,7 +9,7 @@
 #include "require.h"
 #include "ros/haptics/haptics_parameters.h"
 #include "ros/motion/motion_parameters.h"
-#include "ros/parameters/parameters.h"
+#include "ros/parameters/parameter_changes.h"
 #include "roscpp_alone.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/guard/guard.h"

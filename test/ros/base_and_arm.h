@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "ros/input/frames.h"
-#include "ros/parameters/parameters.h"
+#include "ros/parameters/live_parameters.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {

@@ -12,7 +12,7 @@
 #include <set>
 
 #include "refusal.h"
-#include "ros/parameters/parameters.h"
+#include "ros/parameters/parameter_changes.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_ros {

@@ -22,7 +22,7 @@ struct JointVariable {
       true;  ///< its positions are angles; a KinematicTree finds that out. Joints that mimic it may move otherwise
 };
 
-/// A joint that mimics a variable: it is at multiplier * variable + offset [rad or m].
+/// A joint that follows a variable, which may be its own: it is at multiplier * variable + offset [rad or m].
 struct MimicJoint {
   size_t variable = 0;
   double multiplier = 1.0;
@@ -33,7 +33,8 @@ struct MimicJoint {
 };
 
 /// A link L of a robot, and the joint that joins it to its parent P: L is where the joint frame J is, moved by the joint.
-struct TreeLink {
+/// A fixed joint follows nothing.
+struct TreeLink : MimicJoint {
   static constexpr size_t kRoot = std::numeric_limits<size_t>::max();
 
   std::string name;
@@ -42,13 +43,7 @@ struct TreeLink {
   Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();  ///< translation [m]
   JointType type = JointType::kFixed;
   Eigen::Vector3d axis_J = Eigen::Vector3d::UnitZ();  ///< unit; of the rotation or the translation
-  /// The joint is at multiplier * variable + offset [rad or m]. Not used by fixed joints.
-  size_t variable = 0;
-  double multiplier = 1.0;
-  double offset = 0.0;
 
-  /// Returns the position of the joint [rad or m].
-  double at(const std::vector<double>& positions) const { return multiplier * positions[variable] + offset; }
   bool moves() const { return type != JointType::kFixed && multiplier != 0.0; }
 };
 

@@ -4,7 +4,7 @@
 
 #include "guard/cross_check.h"
 #include "guard/workpiece_store.h"
-#include "ros/parameters/parameters.h"
+#include "ros/parameters/live_parameters.h"
 #include "ros/process/log_throttle.h"
 #include "sweep_guard/guard/guard.h"
 #include "sweep_guard/monitor/warning_monitor.h"

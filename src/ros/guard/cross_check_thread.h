@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "guard/cross_check.h"
-#include "ros/parameters/parameters.h"
+#include "ros/parameters/live_parameters.h"
 #include "ros/process/log_throttle.h"
 #include "ros/process/process.h"
 #include "ros/threads/background_thread.h"

@@ -2,6 +2,8 @@
 
 #include <ros/console.h>
 
+#include "ros/parameters/parameter_changes.h"
+
 namespace sweep_guard_ros {
 namespace {
 

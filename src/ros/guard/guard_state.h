@@ -11,7 +11,7 @@
 #include "ros/output/scene_publisher.h"
 #include "ros/output/touches_publisher.h"
 #include "ros/output/warning_publisher.h"
-#include "ros/parameters/parameters.h"
+#include "ros/parameters/live_parameters.h"
 #include "ros/threads/supervisor.h"
 #include "sweep_guard/guard/allowed_contact.h"
 #include "sweep_guard/guard/frame_motion.h"

@@ -24,7 +24,7 @@
 #include "ros/output/scene_publisher.h"
 #include "ros/output/touches_publisher.h"
 #include "ros/output/warning_publisher.h"
-#include "ros/parameters/parameters.h"
+#include "ros/parameters/live_parameters.h"
 #include "ros/process/log_throttle.h"
 #include "ros/service/predict.h"
 #include "ros/threads/thread_top.h"

@@ -7,6 +7,7 @@
 
 #include "common/heartbeat.h"
 #include "ros/guard/detector_test.h"
+#include "ros/parameters/parameter_changes.h"
 #include "ros/process/process.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"

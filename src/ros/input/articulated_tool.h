@@ -12,7 +12,7 @@
 #include "monitor/recent_conflict.h"
 #include "ros/input/foreign_joints.h"
 #include "ros/input/joint_names.h"
-#include "ros/parameters/parameters.h"
+#include "ros/parameters/live_parameters.h"
 #include "sweep_guard/guard/pose_with_frames.h"
 #include "sweep_guard/kinematics/joint_timeline.h"
 

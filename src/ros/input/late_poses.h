@@ -10,7 +10,7 @@
 
 #include "monitor/work_queue.h"
 #include "ros/input/frames.h"
-#include "ros/parameters/parameters.h"
+#include "ros/parameters/live_parameters.h"
 #include "sweep_guard/common/time.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 

@@ -21,7 +21,7 @@
 #include "ros/input/resting_pose.h"
 #include "ros/input/state_watch.h"
 #include "ros/input/tool_path.h"
-#include "ros/parameters/parameters.h"
+#include "ros/parameters/live_parameters.h"
 #include "ros/process/log_throttle.h"
 #include "ros/threads/queue_thread.h"
 #include "sweep_guard/guard/frame_motion.h"

@@ -3,7 +3,7 @@
 #include <atomic>
 
 #include "ros/input/frames.h"
-#include "ros/parameters/parameters.h"
+#include "ros/parameters/live_parameters.h"
 
 namespace sweep_guard_ros {
 

@@ -6,7 +6,7 @@
 #include "monitor/input_record.h"
 #include "monitor/repeated_positions.h"
 #include "prediction/tool_jumps.h"
-#include "ros/parameters/parameters.h"
+#include "ros/parameters/live_parameters.h"
 #include "sweep_guard/guard/pose_with_frames.h"
 
 namespace sweep_guard_ros {

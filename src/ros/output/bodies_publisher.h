@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "guard/pose_history.h"
-#include "ros/parameters/parameters.h"
+#include "ros/parameters/live_parameters.h"
 #include "sweep_guard/guard/prediction.h"
 
 namespace sweep_guard_ros {

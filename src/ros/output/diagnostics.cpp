@@ -9,6 +9,7 @@
 
 #include "common/number_text.h"
 #include "monitor/workpiece_sizes.h"
+#include "ros/parameters/parameter_changes.h"
 #include "sweep_guard/common/quantile.h"
 #include "sweep_guard/ros/conversions.h"
 

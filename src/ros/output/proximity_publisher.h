@@ -4,7 +4,7 @@
 #include <ros/publisher.h>
 
 #include "ros/output/known_surfaces.h"
-#include "ros/parameters/parameters.h"
+#include "ros/parameters/live_parameters.h"
 #include "sweep_guard/guard/guard.h"
 #include "sweep_guard/guard/sweep.h"
 #include "sweep_guard/motion/proximity_finder.h"

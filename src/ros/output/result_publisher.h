@@ -3,7 +3,7 @@
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 
-#include "ros/parameters/parameters.h"
+#include "ros/parameters/live_parameters.h"
 #include "sweep_guard/guard/guard.h"
 
 namespace sweep_guard_ros {

@@ -7,7 +7,7 @@
 
 #include "common/guarded_by.h"
 #include "ros/output/markers.h"
-#include "ros/parameters/parameters.h"
+#include "ros/parameters/live_parameters.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {

@@ -5,7 +5,7 @@
 #include <sweep_guard/Warning.h>
 
 #include "common/guarded_by.h"
-#include "ros/parameters/parameters.h"
+#include "ros/parameters/live_parameters.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {

@@ -10,6 +10,7 @@
 #include "common/floating_point.h"
 #include "common/number_text.h"
 #include "ros/output/markers.h"
+#include "ros/parameters/parameter_changes.h"
 #include "ros/parameters/tool_parameters.h"
 #include "sweep_guard/common/error.h"
 
@@ -334,40 +335,6 @@ Parameters changeParameters(const ros::NodeHandle& private_node, const Parameter
   }
   ParameterReader read(private_node, std::move(settings));
   return readAll(read, &before);
-}
-
-std::vector<ParameterChange> differences(const Parameters& before, const Parameters& after) {
-  std::vector<ParameterChange> changes;
-  for (size_t i = 0; i < after.described.size(); ++i) {
-    const ParameterInfo& was = before.described[i];
-    const ParameterInfo& is = after.described[i];
-    if (was.value != is.value) changes.push_back({is.key, was.value, is.value});
-  }
-  return changes;
-}
-
-bool differ(const Parameters& before, const Parameters& after, const std::string& beginning) {
-  const std::vector<ParameterChange> changes = differences(before, after);
-  return std::any_of(changes.begin(), changes.end(), [&](const ParameterChange& change) {
-    return change.key.compare(0, beginning.size(), beginning) == 0;
-  });
-}
-
-bool detectorsDiffer(const Parameters& before, const Parameters& after) {
-  return differ(before, after, "detector") || differ(before, after, "cull");
-}
-
-LiveParameters::LiveParameters(Parameters initial)
-    : initial_(std::make_shared<const Parameters>(std::move(initial))), current_(initial_) {}
-
-std::shared_ptr<const Parameters> LiveParameters::get() const {
-  const sweep_guard_core::Lock lock(mutex_);
-  return current_;
-}
-
-void LiveParameters::set(std::shared_ptr<const Parameters> parameters) {
-  const sweep_guard_core::Lock lock(mutex_);
-  std::swap(current_, parameters);
 }
 
 }  // namespace sweep_guard_ros

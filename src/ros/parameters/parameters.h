@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "common/guarded_by.h"
 #include "ros/tool/tool_model.h"
 #include "sweep_guard/guard/guard.h"
 #include "sweep_guard/interaction/interaction_finder.h"
@@ -89,34 +88,5 @@ void checkConfigured(const ros::NodeHandle& private_node, const std::vector<std:
 ///     the node runs
 Parameters changeParameters(const ros::NodeHandle& private_node, const Parameters& before,
                             const std::map<std::string, ParameterValue>& changes);
-
-struct ParameterChange {
-  std::string key;
-  ParameterValue before;
-  ParameterValue after;
-};
-
-std::vector<ParameterChange> differences(const Parameters& before, const Parameters& after);
-
-/// Returns whether a parameter differs whose key begins like this.
-bool differ(const Parameters& before, const Parameters& after, const std::string& beginning);
-
-/// Returns whether the two need different detectors.
-bool detectorsDiffer(const Parameters& before, const Parameters& after);
-
-/// Holds the current parameters. A returned snapshot does not change. Any thread.
-class LiveParameters {
- public:
-  explicit LiveParameters(Parameters initial);
-
-  std::shared_ptr<const Parameters> get() const;
-  void set(std::shared_ptr<const Parameters> parameters);
-  const Parameters& initial() const { return *initial_; }  ///< parameters at the start
-
- private:
-  const std::shared_ptr<const Parameters> initial_;
-  mutable sweep_guard_core::Mutex mutex_;
-  std::shared_ptr<const Parameters> current_ GUARDED_BY(mutex_);
-};
 
 }  // namespace sweep_guard_ros

@@ -7,6 +7,7 @@
 #include <map>
 #include <sstream>
 
+#include "ros/parameters/parameter_changes.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
 

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "common/guarded_by.h"
+#include "ros/parameters/live_parameters.h"
 #include "ros/parameters/parameter_writer.h"
-#include "ros/parameters/parameters.h"
 #include "ros/service/limited_calls.h"
 #include "ros/service/service_threads.h"
 

@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "guard/workpiece_store.h"
-#include "ros/parameters/parameters.h"
+#include "ros/parameters/live_parameters.h"
 #include "ros/service/limited_calls.h"
 #include "ros/service/service_threads.h"
 #include "sweep_guard/monitor/warning_monitor.h"

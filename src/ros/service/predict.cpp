@@ -5,6 +5,7 @@
 
 #include "common/number_text.h"
 #include "ros/guard/detector_test.h"
+#include "ros/parameters/parameter_changes.h"
 #include "ros/service/left_out.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"

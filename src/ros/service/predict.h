@@ -10,7 +10,7 @@
 
 #include "guard/body_prediction.h"
 #include "guard/workpiece_store.h"
-#include "ros/parameters/parameters.h"
+#include "ros/parameters/live_parameters.h"
 #include "ros/service/limited_calls.h"
 #include "ros/service/service_threads.h"
 

@@ -2,7 +2,7 @@
 
 #include "guard/workpiece_store.h"
 #include "ros/input/frames.h"
-#include "ros/parameters/parameters.h"
+#include "ros/parameters/live_parameters.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {

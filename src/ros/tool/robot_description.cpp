@@ -50,22 +50,16 @@ std::string nameOf(const XMLElement& element) {
   return name == nullptr ? "" : name;
 }
 
-int elements(const XMLElement& parent, const char* name = nullptr) {
-  int count = 0;
-  for (const XMLElement* e = parent.FirstChildElement(name); e != nullptr; e = e->NextSiblingElement(name)) ++count;
-  return count;
-}
-
 std::string oneGeometryText(const std::string& kind) {
   return "a " + kind + " must have one geometry of one shape; give each shape its own";
 }
 
-std::vector<XMLElement*> elementsOf(XMLElement& link, const char* kind) {
-  std::vector<XMLElement*> shapes;
-  for (XMLElement* shape = link.FirstChildElement(kind); shape != nullptr; shape = shape->NextSiblingElement(kind)) {
-    shapes.push_back(shape);
-  }
-  return shapes;
+// Of each kind if it is null.
+std::vector<XMLElement*> elementsOf(XMLElement& parent, const char* kind) {
+  std::vector<XMLElement*> elements;
+  for (XMLElement* e = parent.FirstChildElement(kind); e != nullptr; e = e->NextSiblingElement(kind))
+    elements.push_back(e);
+  return elements;
 }
 
 void removeEach(XMLElement& parent, const char* kind) {
@@ -73,17 +67,17 @@ void removeEach(XMLElement& parent, const char* kind) {
 }
 
 // urdfdom silently reads only the first of several geometries.
-bool hasSeveralGeometries(const XMLElement& shape) {
-  const XMLElement* const geometry = shape.FirstChildElement("geometry");
-  return geometry != nullptr && (elements(shape, "geometry") > 1 || elements(*geometry) > 1);
+bool hasSeveralGeometries(XMLElement& shape) {
+  XMLElement* const geometry = shape.FirstChildElement("geometry");
+  return geometry != nullptr && (elementsOf(shape, "geometry").size() > 1 || elementsOf(*geometry, nullptr).size() > 1);
 }
 
-bool hasGeometry(const XMLElement& shape) {
-  const XMLElement* const geometry = shape.FirstChildElement("geometry");
-  return geometry != nullptr && elements(*geometry) > 0;
+bool hasGeometry(XMLElement& shape) {
+  XMLElement* const geometry = shape.FirstChildElement("geometry");
+  return geometry != nullptr && geometry->FirstChildElement() != nullptr;
 }
 
-bool isPoint(const XMLElement& shape) {
+bool isPoint(XMLElement& shape) {
   if (!hasGeometry(shape) || hasSeveralGeometries(shape)) return false;
   const XMLElement* const box = shape.FirstChildElement("geometry")->FirstChildElement("box");
   const char* const size = box == nullptr ? nullptr : box->Attribute("size");
@@ -97,8 +91,8 @@ LinkElements readElements(XMLElement& link, LinkGeometry wanted) {
   const auto visuals = elementsOf(link, "visual");
   LinkElements found;
   found.visual_is_read = wanted == LinkGeometry::kVisual || (wanted == LinkGeometry::kEither && collisions.empty());
-  found.has_shape = !collisions.empty() || !std::all_of(visuals.begin(), visuals.end(),
-                                                        [](const XMLElement* visual) { return isPoint(*visual); });
+  found.has_shape = !collisions.empty() ||
+                    !std::all_of(visuals.begin(), visuals.end(), [](XMLElement* visual) { return isPoint(*visual); });
   for (XMLElement* shape : found.visual_is_read ? visuals : collisions) {
     if (!hasGeometry(*shape)) throw InvalidInput("link '" + nameOf(link) + "': " + oneGeometryText(shape->Name()));
     found.has_several = found.has_several || hasSeveralGeometries(*shape);

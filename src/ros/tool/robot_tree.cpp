@@ -150,10 +150,7 @@ class TreeBuilder {
       requireSupported(*chain.back());
     }
     if (indexOf(*chain.back()) == variables_.size()) addVariable(*chain.back());
-    const MimicJoint mimic = *mimicOf(joint);
-    link.variable = mimic.variable;
-    link.multiplier = mimic.multiplier;
-    link.offset = mimic.offset;
+    static_cast<MimicJoint&>(link) = *mimicOf(joint);
   }
 
   // Empty: the joint mimics no variable. One that mimics nothing is the variable itself.
