@@ -26,7 +26,7 @@ sweep_guard::Proximity wall(const ros::Time& now, const Eigen::Isometry3d& X_WT,
   planes.tool = "tool";
   planes.tool_pose = toMsg(X_WT);
   planes.tool_revision = 1;
-  planes.valid_until = now + ros::Duration(0.15);
+  planes.valid_until = now + ros::Duration(2.0);
   planes.valid = true;
   planes.uncovered_distance = std::numeric_limits<double>::infinity();
   planes.planes.resize(1);

@@ -37,6 +37,8 @@ Twist twist(double x, double y = 0.0, double turn = 0.0) {
   return twist;
 }
 
+constexpr double kSilence = 0.5;  // [s] of the node of poses
+
 bool isZero(const Twist& sent) { return sent == Twist(); }
 
 class MotionGuardNodeTest : public testing::Test {
@@ -84,6 +86,17 @@ class MotionGuardNodeTest : public testing::Test {
   }
   void place(double x) {
     world_.change([=](auto& state) { state.X_WT = Eigen::Translation3d(x, 0.0, 0.0); });
+  }
+  // Returns once the tool is seen there: a tool pose that is older stops it.
+  void moveRobotTo(double x) {
+    startRobot();
+    commandPose(Eigen::Isometry3d(Eigen::Translation3d(x, 0.0, 0.0)));
+    guarded_poses_.await([=](const PoseStamped& sent) { return sent.pose.position.x == x; }, "the pose");
+    const ros::Time seen = ros::Time::now() + ros::Duration(kSilence + 0.2);
+    Listener<MotionStatus> statuses(node_, "/pose/motion_guard/status");
+    statuses.await(
+        [=](const MotionStatus& next) { return next.header.stamp > seen && next.code == MotionStatus::NO_WARNING; },
+        "a tool that is there");
   }
   void awaitFreeMotion() {
     command(twist(0.1));
@@ -244,15 +257,26 @@ TEST(HoldPublisherTest, AScaleOfZeroAndALockFollowTheZeroThatIsSentBefore) {
   expect(true);
 }
 
+// On a busy machine one of several tries gets them all: a newer command replaces one that has not left.
 TEST_F(MotionGuardNodeTest, SendsFourZerosAfterTheCommandsHaveStopped) {
-  awaitFreeMotion();
-  world_.change([](auto& state) { state.command = nullptr; });
   int zeros = 0;
-  guarded_twists_.await([&](const Twist& sent) { return isZero(sent) && ++zeros == 4; }, "four zeros");
-  for (int i = 0; i < 3; ++i) awaitStatus([](const MotionStatus&) { return true; }, "the time of a status");
-  command(twist(0.2));
-  const Twist next = guarded_twists_.await([](const Twist&) { return true; }, "the next command");
-  EXPECT_EQ(next, twist(0.2));
+  for (int i = 0; zeros != 4; ++i) {
+    ASSERT_LT(i, 10) << zeros << " zeros";
+    awaitFreeMotion();
+    statuses_.clear();
+    world_.change([](auto& state) { state.command = nullptr; });
+    awaitStatus([](const MotionStatus& next) { return next.cause == "the newest command is too old"; }, "idle");
+    for (int j = 0; j < 3; ++j) awaitStatus([](const MotionStatus&) { return true; }, "the time of a status");
+    zeros = 0;
+    command(twist(0.2));
+    guarded_twists_.await(
+        [&](const Twist& sent) {
+          if (sent == twist(0.1)) zeros = 0;
+          if (isZero(sent)) ++zeros;
+          return sent == twist(0.2);
+        },
+        "the next command");
+  }
 }
 
 // Calls for each 20th command of the world: at 5 Hz.
@@ -301,21 +325,28 @@ TEST_F(MotionGuardNodeTest, SlowCommandsAreRepeatedUntilTheNextOne) {
   }
 }
 
+// On a busy machine one of several tries is repeated before its time is over.
 TEST_F(MotionGuardNodeTest, ARepeatedCommandIsLimitedAnew) {
   SlowNode node(node_);
   for (const double speed : {0.1, 0.15, 0.2}) {
     const Twist fast = twist(-speed, 0.05);
-    world_.change([&](auto& state) { state.command = node.commands(fast); });
-    node.guarded.await([&](const TwistStamped& sent) { return sent.twist == fast; }, "free motion");
-    world_.change([](auto& state) {
-      state.command = nullptr;
-      state.wall = 0.795;
-    });
-    node.guarded.await(
-        [](const TwistStamped& sent) { return sent.twist.linear.x > -0.08 && sent.twist.linear.y > 0.04; },
-        "a slower one, without a new command");
-    node.guarded.await([](const TwistStamped& sent) { return isZero(sent.twist); }, "zero after command_timeout");
-    world_.change([](auto& state) { state.wall = 0.0; });
+    bool is_slowed = false;
+    for (int i = 0; i < 10 && !is_slowed; ++i) {
+      world_.change([&](auto& state) { state.command = node.commands(fast); });
+      node.guarded.await([&](const TwistStamped& sent) { return sent.twist == fast; }, "free motion");
+      world_.change([](auto& state) {
+        state.command = nullptr;
+        state.wall = 0.795;
+      });
+      node.guarded.await(
+          [&](const TwistStamped& sent) {
+            if (sent.twist.linear.x > -0.08 && sent.twist.linear.y > 0.04) is_slowed = true;
+            return isZero(sent.twist);
+          },
+          "zero after command_timeout");
+      world_.change([](auto& state) { state.wall = 0.0; });
+    }
+    EXPECT_TRUE(is_slowed) << "without a new command";
   }
 }
 
@@ -432,9 +463,7 @@ TEST_F(MotionGuardNodeTest, ACommandThatIsNotFiniteIsRefused) {
 }
 
 TEST_F(MotionGuardNodeTest, APoseIsCaughtUpWithAndHeldWhenTheGuardDoesNotKnow) {
-  startRobot();
-  commandPose(Eigen::Isometry3d(Eigen::Translation3d(0.81, 0.0, 0.0)));
-  guarded_poses_.await([](const PoseStamped& sent) { return sent.pose.position.x == 0.81; }, "the pose");
+  moveRobotTo(0.81);
   world_.change([](auto& state) { state.level = sweep_guard::Warning::UNKNOWN; });
   Listener<MotionStatus> statuses(node_, "/pose/motion_guard/status");
   statuses.await([](const MotionStatus& next) { return next.code == MotionStatus::HALT_FOR_COLLISION; }, "stopped");
@@ -485,9 +514,7 @@ TEST_F(MotionGuardNodeTest, APoseBeyondAWallThatCameIsTakenBackToTheTool) {
 }
 
 TEST_F(MotionGuardNodeTest, APoseThatIsRefusedIsAnsweredInTheFrameOfTheOneBefore) {
-  startRobot();
-  commandPose(Eigen::Isometry3d(Eigen::Translation3d(0.81, 0.0, 0.0)));
-  guarded_poses_.await([](const PoseStamped& sent) { return sent.pose.position.x == 0.81; }, "the pose");
+  moveRobotTo(0.81);
   commandPose(Eigen::Isometry3d(Eigen::Translation3d(0.9, 0.0, 0.0)), "nowhere");
   Listener<MotionStatus> statuses(node_, "/pose/motion_guard/status");
   statuses.await([](const MotionStatus& next) { return next.code == MotionStatus::INVALID; }, "refused");

@@ -23,8 +23,8 @@ namespace sweep_guard_ros {
 
 /// Converts the messages on the topics `mesh` and `mesh_vertices`, and puts them into the store. Reports every accepted
 /// and every refused message to the monitor. One thread receives, one converts meshes, and one stores, so that neither a
-/// large mesh nor a slow update delays another workpiece's vertices on their way in. Vertices do not overtake a mesh of
-/// their own workpiece.
+/// large mesh nor a slow update delays another workpiece's vertices on their way in; the one that stores also converts what
+/// came too early. Vertices do not overtake a mesh of their own workpiece.
 class MeshInput {
  public:
   MeshInput(const ros::NodeHandle& node, const Parameters& parameters, sweep_guard_core::WorkpieceStore& workpieces,

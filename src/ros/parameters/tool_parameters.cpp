@@ -138,7 +138,8 @@ std::map<std::string, Duration> readJointTimeouts(ParameterReader& read) {
   for (const auto& [joint, seconds] : read.numbers(
            "tool/joint_timeouts",
            "tool/joint_states only: age [s] from which a joint makes the warning UNKNOWN, by name, 0.01 to 2. The "
-           "others have timing/pose_timeout. The tool is swept up to where all joints are known: a slow joint "
+           "others have timing/pose_timeout. The longest one holds for the tool, transforms and other tools, too, if "
+           "it is longer than timing/pose_timeout. The tool is swept up to where all joints are known: a slow joint "
            "delays contacts, not predictions.",
            ParameterReader::Range{0.01, 2.0, "s"})) {
     timeouts[joint] = sweep_guard_core::fromSeconds(seconds);
