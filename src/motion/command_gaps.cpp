@@ -47,13 +47,14 @@ std::string CommandGaps::rarity(SteadyTime now) const {
 
 std::string CommandGaps::tooOld(const Instant& now) const {
   assert(newest_);
-  const bool by_stamp = now.steady - newest_->received <= timeout_;
-  std::string rare = by_stamp ? "" : rarity(now.steady);
+  const Duration waited = now.steady - newest_->received;
+  const Duration age = std::max(waited, now.stamp - newest_->stamp);
+  const bool came_late = 2 * (age - waited) > timeout_;
+  std::string rare = came_late ? "" : rarity(now.steady);
   if (!rare.empty()) return rare;
-  const Duration age = by_stamp ? now.stamp - newest_->stamp : now.steady - newest_->received;
-  return (by_stamp ? "the stamp of the newest command is " : "the newest command is ") + secondsText(age) +
+  return (came_late ? "the stamp of the newest command is " : "the newest command is ") + secondsText(age) +
          " old, and " + parameter_ + " is " + secondsText(timeout_) +
-         (by_stamp ? ": clocks differ, or commands wait on their way" : "");
+         (came_late ? ": clocks differ, or commands wait on their way" : "");
 }
 
 }  // namespace sweep_guard_core

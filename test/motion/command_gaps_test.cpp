@@ -63,6 +63,10 @@ TEST(CommandGapsTest, SaysWhyTheNewestCommandIsTooOld) {
   for (const int ms : {330, 530}) gaps.received(received(ms));
   EXPECT_EQ(gaps.tooOld(at(635)), gaps.rarity(at(635).steady));
   EXPECT_NE(gaps.tooOld(at(635)), "");
+  for (const int delay : {1, 20, 50}) {
+    gaps.received({at(730 - delay).stamp, at(730).steady});
+    EXPECT_EQ(gaps.tooOld(at(830)), gaps.rarity(at(830).steady)) << "too old by its stamp first, but not for its delay";
+  }
   gaps.received({at(730).stamp - milliseconds(500), at(730).steady});
   EXPECT_EQ(gaps.tooOld(at(730)).find("the stamp of the newest command is 0.5 s old"), 0U);
 }
