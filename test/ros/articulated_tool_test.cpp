@@ -59,7 +59,7 @@ TEST_F(ArticulatedToolTest, ListsWhichJointsAreMissing) {
   EXPECT_EQ(silence(1.0), "joint 'jaw' has not been published yet");
   add(1.0, {"jaw"});
   EXPECT_EQ(silence(1.0), "");
-  EXPECT_TRUE(has(silence(1.2), "joint 'shoulder' has been silent for 0.2"));
+  EXPECT_TRUE(has(silence(1.2), "joint 'shoulder' has been silent for 0.20 s"));
 }
 
 TEST_F(ArticulatedToolTest, ListsWhatCameInTheirPlace) {
@@ -130,7 +130,7 @@ TEST_F(ArticulatedToolTest, AMissingPoseIsToldBesideMissingJoints) {
   EXPECT_EQ(silence(1.0), "the tool pose has not been published yet");
   tool_->add(sweep_guard_core::Time() + sweep_guard_core::fromSeconds(1.0), Eigen::Isometry3d::Identity());
   EXPECT_EQ(silence(1.0), "");
-  EXPECT_TRUE(has(silence(1.2), "the tool pose has been silent for 0.2"));
+  EXPECT_TRUE(has(silence(1.2), "the tool pose has been silent for 0.20 s"));
 }
 
 }  // namespace

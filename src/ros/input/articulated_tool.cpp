@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "common/number_text.h"
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/kinematics/robot_motion.h"
 #include "sweep_guard/ros/conversions.h"
@@ -128,7 +129,7 @@ std::string ArticulatedTool::silence(Time now) const {
   const std::string joints = missingJoints();
   if (!pose.empty() || !joints.empty()) return pose + (pose.empty() || joints.empty() ? "" : "; ") + joints;
   const auto tell = [now](const std::string& what, Time newest) {
-    return what + " has been silent for " + std::to_string(sweep_guard_core::toSeconds(now - newest)) + " s";
+    return what + " has been silent for " + sweep_guard_core::inSeconds(now - newest);
   };
   const auto root = timeline_.newestOfRoot();
   if (root && now - *root > root_timeout_) return tell("the tool pose", *root);
