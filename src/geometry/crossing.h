@@ -11,14 +11,14 @@ namespace sweep_guard_core {
 
 // Looks from a point p along +x at triangles of a surface. A closed surface, whose triangles are counter-clockwise
 // seen from outside, winds around p as many times as the sum of their crossings(). An edge on the ray counts with
-// exactly one of its triangles despite rounding, because both evaluate it from the same end. `corner` is a function from
-// the index of a vertex to its position relative to p [m].
+// exactly one of its triangles despite rounding: seen from its other end, each turn is the negative bit for bit, as no
+// product is contracted with a sum (-ffp-contract=off). `corner` is a function from the index of a vertex to its position
+// relative to p [m].
 
 /// Returns on which side of an edge the ray passes, +1 or -1. One through the edge counts as shifted by (e, e^2) in y and z, for
 /// an infinitesimal e.
 template <typename Corner>
 int sideOf(const Corner& corner, std::uint32_t from, std::uint32_t to) {
-  if (from > to) return -sideOf(corner, to, from);
   const Eigen::Vector3d a = corner(from);
   const Eigen::Vector3d b = corner(to);
   for (const double turn : {a.y() * b.z() - a.z() * b.y(), a.z() - b.z(), b.y() - a.y()}) {
