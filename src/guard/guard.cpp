@@ -139,12 +139,11 @@ void Guard::exchange(GuardChange& change) {
   assert(change.bodies.empty() || change.bodies.size() == bodies_.size());
   const TimeBudget budget(change.options.horizon, change.options.cycle);
   change.options.clock = options_.clock;
-  const bool others_allowed = !(change.options.allowed == options_.allowed);
   std::swap(options_, change.options);
   if (change.detector) std::swap(detector_, change.detector);
   for (size_t i = 0; i < bodies_.size(); ++i) {
     GuardedBody& body = *bodies_[i];
-    if (change.detector || !change.bodies.empty() || others_allowed) body.sweeps.forgetContacts();
+    if (change.detector || !change.bodies.empty()) body.sweeps.forgetContacts();
     if (!change.bodies.empty()) std::swap(body.tool, change.bodies[i]);
     if (!change.bodies.empty()) body.touches.clear();
     body.running = std::make_unique<BodyPrediction>(options_);
