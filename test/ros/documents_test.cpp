@@ -284,17 +284,18 @@ std::string sources(const std::vector<std::string>& folders) {
 TEST(DocumentsTest, NothingLooksForTheGuardAtTheRoot) {
   std::string launched;
   for (const auto& file : std::filesystem::directory_iterator(kRoot / "launch")) launched += contents(file.path());
-  const std::regex found("name=\"(guard|warning)\" (default|value)=\"([^\"]*)\"");
+  const std::regex found("name=\"(guard|warning)\"( type=\"str\")? (default|value)=\"([^\"]*)\"");
   int places = 0;
   for (std::sregex_iterator one(launched.begin(), launched.end(), found), end; one != end; ++one, ++places) {
-    EXPECT_NE((*one)[3].str().front(), '/') << one->str();
+    EXPECT_NE((*one)[4].str().front(), '/') << one->str();
   }
-  EXPECT_GE(places, 10);
-  for (const std::filesystem::path folder : {"src", "config"}) {
+  EXPECT_GE(places, 19);
+  for (const std::filesystem::path folder : {"src", "config", "python"}) {
     for (const auto& file : std::filesystem::recursive_directory_iterator(kRoot / folder)) {
       const bool of_recordings = file.path().stem() == "recorded_topics" || file.path().stem() == "session_bag";
       if (file.is_directory() || of_recordings) continue;
-      EXPECT_EQ(contents(file.path()).find("\"" + kGuard), std::string::npos) << file.path();
+      for (const char* const before : {"\"", "'", ": "})
+        EXPECT_EQ(contents(file.path()).find(before + kGuard), std::string::npos) << file.path();
     }
   }
 }
