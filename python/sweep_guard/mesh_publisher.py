@@ -2,6 +2,7 @@
 import io
 import struct
 import threading
+import time
 from typing import Any, Optional, Sequence, Union
 
 import numpy
@@ -14,6 +15,7 @@ from .mesh_arrays import (COARSE_ROUNDING, MAX_ROUNDING, checked_faces, checked_
 _MAX_WORKPIECES = 1000  # that a guard watches; the meshes of all may wait for one connection
 _MAX_NAME_LENGTH = 128  # [bytes]
 _COUNT = struct.Struct('<I')  # goes before each array
+_ALIVE_PERIOD = 0.1  # [s]
 
 Rows = Union[numpy.ndarray, Sequence[Sequence[float]]]  # of three numbers
 
@@ -63,7 +65,7 @@ class MeshPublisher(rospy.SubscribeListener):
     _publishing = threading.RLock()  # rospy's message to one new subscriber shares a buffer with those to all
 
     def __init__(self, mesh_id: str, frame: str, mesh_topic: str = 'mesh', vertices_topic: str = 'mesh_vertices',
-                 queue_size: int = 10, open: bool = False):
+                 queue_size: int = 10, open: bool = False, rests: bool = False):
         """
         mesh_id: name of the workpiece
         frame: tf frame of the vertices
@@ -71,15 +73,20 @@ class MeshPublisher(rospy.SubscribeListener):
             then the oldest is dropped
         open: the surface has no inside, as cloth or sheet metal: the guard does not test whether the tool is inside, and
             does not report INSIDE_UNTESTED
+        rests: it does not deform. A thread says 10 times a second that it is as it was, until the node shuts down, so that
+            the guard notices the end of this node. To move it, publish() it again
         """
         self.mesh_id = _checked_name('mesh_id', mesh_id)
         self.frame = _checked_name('frame', frame)
         self.open = open
+        self.rests = rests
         self.revision = 0
         self._faces = self._vertex_count = self._newest = None
         self._mesh = rospy.Publisher(mesh_topic, DeformableMesh, subscriber_listener=self, queue_size=_MAX_WORKPIECES,
                                      headers={'latching': '1'})
         self._vertices = rospy.Publisher(vertices_topic, MeshVertices, queue_size=queue_size)
+        if rests:
+            threading.Thread(target=self._confirm_until_shutdown, daemon=True).start()
 
     def publish(self, vertices: Any, faces: Optional[Rows] = None, stamp: Optional[rospy.Time] = None) -> None:
         """Publishes vertices [m] and triangles, or a mesh that has `vertices` and `faces`, as trimesh's.
@@ -108,6 +115,8 @@ class MeshPublisher(rospy.SubscribeListener):
         from about 130 km on, which is refused. Choose a frame near the workpiece.
         Raises ValueError, and sends nothing, if the guard would refuse them.
         """
+        if self.rests:
+            raise ValueError(f"'{self.mesh_id}' rests: publish() it again, or make its MeshPublisher without rests")
         vertices = checked_vertices(vertices)
         with self._publishing:
             if self._newest is None:
@@ -131,6 +140,13 @@ class MeshPublisher(rospy.SubscribeListener):
             if self._newest is not None:
                 peer_publish(self._newest)
 
+    def _confirm_until_shutdown(self):
+        while not rospy.is_shutdown():
+            with self._publishing:
+                if self._newest is not None:
+                    self._vertices.publish(self._fill(MeshVertices(), None))
+            time.sleep(_ALIVE_PERIOD)
+
     def _check_rounding(self, vertices):
         rounding = float32_rounding(vertices)
         if rounding > MAX_ROUNDING:
@@ -140,7 +156,7 @@ class MeshPublisher(rospy.SubscribeListener):
 
     def _count_revision(self, faces, vertex_count):
         same = self._faces is not None and vertex_count == self._vertex_count and numpy.array_equal(faces, self._faces)
-        if not same:
+        if self.rests or not same:  # what is confirmed is this mesh
             self.revision += 1
         self._faces, self._vertex_count = faces, vertex_count
 

@@ -1,5 +1,7 @@
 #include "guard/body_prediction.h"
 
+#include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "guard/united_bodies.h"
@@ -7,9 +9,9 @@
 namespace sweep_guard_core {
 namespace {
 
-// Of the mesh as sent, which lies within its rounding of what is stored.
+// Of all that counts as the mesh.
 double radiusAboutFrame(const TriangleMesh& mesh_M) {
-  return mesh_M.origin().norm() + mesh_M.radius() + mesh_M.rounding();
+  return mesh_M.origin().norm() + mesh_M.radius() + mesh_M.margin();
 }
 
 }  // namespace
@@ -27,6 +29,7 @@ void BodyPrediction::begin(const BodyPredictionRequest& request, Prediction& pre
   prediction.unplaced.clear();
   prediction.failures.clear();
   X_WB_ = motion.from.bodies[request.body].X_WB;
+  orderByPadding();
   next_ = tested_ = 0;
   checker_.giveUp();
   checker_.forgetPath();
@@ -36,6 +39,16 @@ void BodyPrediction::begin(const BodyPredictionRequest& request, Prediction& pre
 const Workpieces& BodyPrediction::workpieces() const {
   static const Workpieces kNone;
   return request_->motion.path.empty() ? kNone : request_->workpieces;
+}
+
+// Workpieces of one padding share the volumes of a path.
+void BodyPrediction::orderByPadding() {
+  const Workpieces& all = request_->workpieces;
+  order_.resize(all.size());
+  std::iota(order_.begin(), order_.end(), 0);
+  std::sort(order_.begin(), order_.end(), [&](size_t one, size_t other) {
+    return std::pair(all[one]->mesh_M.padding(), one) < std::pair(all[other]->mesh_M.padding(), other);
+  });
 }
 
 bool BodyPrediction::done() const { return checker_.done() && next_ == workpieces().size(); }
@@ -50,21 +63,21 @@ void BodyPrediction::step(Detector& detector) {
     if (checker_.done()) ++tested_;
   } catch (const std::exception& error) {  // of the detector, or no memory: the other workpieces are tested
     checker_.giveUp();
-    prediction_->failures.push_back({workpieces()[next_ - 1], error.what()});
+    prediction_->failures.push_back({inOrder(next_ - 1), error.what()});
   }
   finish();
 }
 
 void BodyPrediction::giveUp(const std::string& reason) {
-  if (!checker_.done()) prediction_->failures.push_back({workpieces()[next_ - 1], reason});
+  if (!checker_.done()) prediction_->failures.push_back({inOrder(next_ - 1), reason});
   checker_.giveUp();
-  while (next_ < workpieces().size()) prediction_->failures.push_back({workpieces()[next_++], reason});
+  while (next_ < workpieces().size()) prediction_->failures.push_back({inOrder(next_++), reason});
   finish();
 }
 
 // Returns false if the frame of the next workpiece is unknown.
 bool BodyPrediction::beginNext() {
-  const std::shared_ptr<const Workpiece>& workpiece = workpieces()[next_++];
+  const std::shared_ptr<const Workpiece>& workpiece = inOrder(next_++);
   const BodyPredictionRequest& of = *request_;
   if (!place(*workpiece)) {
     prediction_->unplaced.push_back(workpiece);

@@ -43,7 +43,9 @@ class BodyPrediction {
   void giveUp(const std::string& reason);
 
  private:
+  void orderByPadding();
   const Workpieces& workpieces() const;
+  const std::shared_ptr<const Workpiece>& inOrder(size_t place) const { return workpieces()[order_[place]]; }
   bool beginNext();
   bool place(const Workpiece& workpiece);
   void finish();
@@ -54,7 +56,8 @@ class BodyPrediction {
   Eigen::Isometry3d X_WB_ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d X_WM_ = Eigen::Isometry3d::Identity();  // of the workpiece under test, in a frame that rests
   std::optional<std::vector<PredictedFrame>> frame_;        // the same, of one that moves on its own
-  size_t next_ = 0;                                         // workpiece
+  std::vector<size_t> order_;                               // of the workpieces
+  size_t next_ = 0;                                         // in this order
   size_t tested_ = 0;                                       // objects of the prediction
 };
 

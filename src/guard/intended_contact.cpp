@@ -45,14 +45,14 @@ Eigen::AlignedBox3d boxAroundIntended(const Workpiece& workpiece, const std::str
   return box;
 }
 
-bool isAway(const ConvexPiece& piece, const Eigen::Isometry3d& X_MT, const Eigen::AlignedBox3d& box_M) {
+bool isAway(const ConvexPiece& piece, const Eigen::Isometry3d& X_MT, const Eigen::AlignedBox3d& box_M, double padding) {
   const Eigen::Vector3d base_M = box_M.center();
   const PlacedCore tool{piece.shape_T, X_MT.linear(), X_MT.translation() - base_M};
   const Eigen::AlignedBox3d box(box_M.min() - base_M, box_M.max() - base_M);
   const auto corner = [&](const Eigen::Vector3d& direction) -> Eigen::Vector3d {
     return (direction.array() < 0.0).select(box.min(), box.max());
   };
-  return distanceExceeds(tool, corner, kLeft + piece.shape_T.padding());
+  return distanceExceeds(tool, corner, kLeft + piece.shape_T.padding() + padding);
 }
 
 bool hasLeft(const std::string& link, const Workpiece& workpiece, const PoseWithFrames& pose,
@@ -61,8 +61,9 @@ bool hasLeft(const std::string& link, const Workpiece& workpiece, const PoseWith
   const auto X_WM = pose.X_WM.find(workpiece.frame);
   if (box_M.isEmpty() || X_WM == pose.X_WM.end()) return true;
   const Eigen::Isometry3d X_MT = X_WM->second.inverse() * X_WB;
-  return std::all_of(body.pieces().begin(), body.pieces().end(),
-                     [&](const ConvexPiece& piece) { return piece.link != link || isAway(piece, X_MT, box_M); });
+  return std::all_of(body.pieces().begin(), body.pieces().end(), [&](const ConvexPiece& piece) {
+    return piece.link != link || isAway(piece, X_MT, box_M, workpiece.mesh_M.padding());
+  });
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ MovingMesh::MovingMesh(const TriangleMesh& mesh_M, const TriangleMesh& before_M,
   if (!displacements.any() && path_deviation == 0.0) return;
   before_M_ = &before_M;
   translation_M_ = displacements.box_M().center();
-  uncertainty_ = path_deviation + std::max(mesh_M.rounding(), before_M.rounding());
+  uncertainty_ = path_deviation + std::max(mesh_M.margin(), before_M.margin());
   spread_ = 0.5 * displacements.box_M().diagonal().norm() + uncertainty_;
 }
 

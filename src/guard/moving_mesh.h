@@ -25,10 +25,10 @@ class MovingMesh {
   bool moved() const { return before_M_ != nullptr; }                      ///< some vertex has moved
   const Eigen::Vector3d& translation_M() const { return translation_M_; }  ///< translation of the mesh as a whole [m]
   /// Returns an upper bound on the distance of a vertex, at any time, from where the translation alone would put it
-  /// [m], plus rounding. A volume that is extended by the translation and grown by this meets all that the moving mesh
+  /// [m], plus its margin. A volume that is extended by the translation and grown by this meets all that the moving mesh
   /// meets.
   double spread() const { return spread_; }
-  /// Returns an upper bound on the distance of a corner from triangle() [m], rounding included.
+  /// Returns an upper bound on the distance of a corner from triangle() [m], plus the margin of the mesh.
   double uncertainty() const { return uncertainty_; }
 
   MovingTriangle triangle(std::uint32_t index) const;
@@ -37,8 +37,8 @@ class MovingMesh {
   const TriangleMesh& mesh_M_;
   const TriangleMesh* before_M_ = nullptr;
   Eigen::Vector3d translation_M_ = Eigen::Vector3d::Zero();
-  double spread_ = mesh_M_.rounding();
-  double uncertainty_ = mesh_M_.rounding();
+  double spread_ = mesh_M_.margin();
+  double uncertainty_ = mesh_M_.margin();
 };
 
 /// Returns an upper bound on the distance of a vertex from its straight path [m].

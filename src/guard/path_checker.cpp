@@ -13,6 +13,12 @@ namespace {
 
 constexpr Duration kFinestProbable = std::chrono::milliseconds(25);  // shortest sweep with a merely possible contact
 
+// Rounded up, so that workpieces share one path.
+double sharedRounding(const TriangleMesh& mesh_M) {
+  constexpr double kFinest = 0x1p-20;  // [m]
+  return mesh_M.rounding() <= kFinest ? kFinest : std::exp2(std::ceil(std::log2(mesh_M.rounding())));
+}
+
 void addFreeSweeps(const PredictedPathRequest& request, PredictedObject& object) {
   const size_t count = request.plan.sweepCount(request.path);
   object.volumes_tested = count;
@@ -46,7 +52,8 @@ void PathChecker::begin(const PredictedPathRequest& request, PredictedObject& ob
   test_.reset();
   object.clear();
   object.workpiece = request.workpiece;
-  const double margin = options_.margin + object.workpiece->mesh_M.rounding();
+  const TriangleMesh& mesh_M = object.workpiece->mesh_M;
+  const double margin = options_.margin + sharedRounding(mesh_M) + mesh_M.padding();
   const bool several = request.closest != nullptr && request.frame == nullptr;
   if (several && staysOutOfReach(request, margin)) return addFreeSweeps(request, object);
   beginTest(request, margin, object);

@@ -86,7 +86,17 @@ UpdateOutcome WorkpieceStore::set(Workpiece next, Time latest) {
   return UpdateOutcome::kStored;
 }
 
+// It may overtake the mesh, which is a message of another topic.
+UpdateOutcome WorkpieceStore::confirm(const Deformation& deformation) const {
+  const auto held = attached(deformation.id);
+  const std::shared_ptr<const Workpiece> current = held ? held->workpiece : find(deformation.id);
+  const bool same = current && current->revision == deformation.revision && current->frame == deformation.frame &&
+                    current->stamp <= deformation.stamp;
+  return same ? UpdateOutcome::kConfirmed : UpdateOutcome::kIgnored;
+}
+
 UpdateOutcome WorkpieceStore::deform(const Deformation& deformation, Time latest) {
+  if (deformation.positions_M.empty()) return confirm(deformation);
   if (const auto held = attached(deformation.id)) {
     const Workpiece& workpiece = *held->workpiece;
     requireRevision(workpiece, deformation.revision);

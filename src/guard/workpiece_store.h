@@ -24,12 +24,13 @@ struct Deformation {
   Time stamp;
   SteadyTime received;
   const std::string& frame;               ///< name of the mesh's frame M
-  const std::vector<float>& positions_M;  ///< x0 y0 z0 x1 ... [m]
+  const std::vector<float>& positions_M;  ///< x0 y0 z0 x1 ... [m]; empty: as they were
 };
 
 /// What became of an update.
 enum class UpdateOutcome {
   kStored,
+  kConfirmed,         ///< the workpiece is as it was: nothing is stored
   kIgnored,           ///< it is older than what is known already, and says nothing new
   kUnknownWorkpiece,  ///< there is no workpiece of this id
 };
@@ -65,7 +66,8 @@ class WorkpieceStore {
 
   /// Replaces vertices, times and frame of a workpiece. `updates` and `path_length` continue, even in another frame.
   /// @param latest  as for set()
-  /// @returns kIgnored if the workpiece was removed, see remove()
+  /// Without positions it says that the workpiece is still as it was, and confirms the snapshot of its revision and frame.
+  /// @returns kIgnored if the workpiece was removed, see remove(), and for what confirms nothing
   /// @throws InvalidInput if the revision differs, if the stamp is older than the snapshot's, or if
   ///     TriangleMesh::deform() refuses the positions
   UpdateOutcome deform(const Deformation& deformation, Time latest);
@@ -112,6 +114,7 @@ class WorkpieceStore {
   void replace(std::shared_ptr<const Workpiece> snapshot);
   void replaceLocked(std::shared_ptr<const Workpiece> snapshot) REQUIRES(mutex_);
   void updateFrames() REQUIRES(mutex_);
+  UpdateOutcome confirm(const Deformation& deformation) const;
   bool wasRemoved(const Deformation& deformation) const;
 
   const OnChange on_change_;

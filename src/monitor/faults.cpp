@@ -66,9 +66,11 @@ void Refusals::add(const std::string& id, const WarningInputs::Event& refusal) {
   if (!room) of_others_ = refusal.message + kTooMany;
 }
 
-void Refusals::accept(const std::string& id, SteadyTime received) {
+bool Refusals::accept(const std::string& id, SteadyTime received) {
   const auto refused = refused_.find(id);
-  if (refused != refused_.end() && refused->second.found <= received) refused_.erase(refused);
+  const bool ends = refused != refused_.end() && refused->second.found <= received;
+  if (ends) refused_.erase(refused);
+  return ends;
 }
 
 std::string Refusals::message(const std::vector<std::string>& ids) const {

@@ -48,7 +48,8 @@ class Refusals {
   /// and nothing ends it, because it is no longer known which of these ids a valid message came for.
   void add(const std::string& id, const WarningInputs::Event& refusal);
   /// Ends the refusals of this id that were received no later.
-  void accept(const std::string& id, SteadyTime received);
+  /// @returns whether there were any
+  bool accept(const std::string& id, SteadyTime received);
 
   /// Returns the message about the last of these ids that is refused, or of those beyond the 1024; empty: none is.
   /// @param ids  empty: all

@@ -31,6 +31,17 @@ bool notSwept(const SweepReport& report, const std::string& id) {
          std::any_of(report.failures.begin(), report.failures.end(), failed);
 }
 
+// Both are ascending by id.
+template <typename Entry>
+void forgetGone(const Workpieces& newest, std::map<std::string, Entry>& by_id) {
+  auto workpiece = newest.begin();
+  for (auto entry = by_id.begin(); entry != by_id.end();) {
+    while (workpiece != newest.end() && (*workpiece)->id < entry->first) ++workpiece;
+    const bool known = workpiece != newest.end() && (*workpiece)->id == entry->first;
+    entry = known ? std::next(entry) : by_id.erase(entry);
+  }
+}
+
 }  // namespace
 
 const Workpiece* findWorkpiece(const Workpieces& workpieces, const std::string& id) {
@@ -47,7 +58,8 @@ bool holds(const Workpieces& workpieces, const Workpiece& workpiece) {
 void SweptWorkpieces::set(const Workpieces& newest, std::optional<SteadyTime> now) {
   updateStandIns(newest_, newest, now, replaced_);
   newest_ = newest;
-  forgetDroppedOfGone();
+  forgetGone(newest_, dropped_);
+  forgetGone(newest_, confirmed_);
   updateObjects();
 }
 
@@ -58,8 +70,20 @@ bool SweptWorkpieces::allCount(const Workpieces& tested, SteadyTime now) const {
   return std::all_of(newest_.begin(), newest_.end(), counts);
 }
 
+WarningInputs::Object* SweptWorkpieces::findObject(const std::string& id) const {
+  const auto before = [](const WarningInputs::Object& object, const std::string& of) { return object.id < of; };
+  const auto found = std::lower_bound(inputs_.objects.begin(), inputs_.objects.end(), id, before);
+  return found == inputs_.objects.end() || found->id != id ? nullptr : &*found;
+}
+
+void SweptWorkpieces::confirm(const std::string& id, const Timestamps& timestamps) {
+  WarningInputs::Object* const object = findObject(id);
+  if (object == nullptr) return;
+  object->timestamps = confirmed_[id] = timestamps;
+}
+
 bool SweptWorkpieces::drop(const std::string& id, SteadyTime received) {
-  if (findWorkpiece(newest_, id) == nullptr) return false;
+  if (findObject(id) == nullptr) return false;
   SteadyTime& newest = dropped_[id];
   newest = std::max(newest, received);
   updateObjects();
@@ -79,14 +103,8 @@ void SweptWorkpieces::swept(const SweepReport& report) {
 
 void SweptWorkpieces::restart() {
   swept_.clear();
+  confirmed_.clear();
   updateObjects();
-}
-
-void SweptWorkpieces::forgetDroppedOfGone() {
-  for (auto dropped = dropped_.begin(); dropped != dropped_.end();) {
-    const bool known = findWorkpiece(newest_, dropped->first) != nullptr;
-    dropped = known ? std::next(dropped) : dropped_.erase(dropped);
-  }
 }
 
 void SweptWorkpieces::updateObjects() {
@@ -96,7 +114,9 @@ void SweptWorkpieces::updateObjects() {
     WarningInputs::Object& object = inputs_.objects[i];
     if (object.id != workpiece.id) object.behind = {};
     object.id = workpiece.id;
-    object.timestamps = {workpiece.stamp, workpiece.received};
+    const auto confirmed = confirmed_.find(workpiece.id);
+    const bool is_newer = confirmed != confirmed_.end() && confirmed->second.received > workpiece.received;
+    object.timestamps = is_newer ? confirmed->second : Timestamps{workpiece.stamp, workpiece.received};
     object.ages = !workpiece.of_other_tool;
     object.open_edges = workpiece.mesh_M.openEdges();
     object.swept = holds(swept_, workpiece);

@@ -26,22 +26,26 @@ class SweptWorkpieces {
   /// Returns whether each of the newest, or triangles that stand in for it, is among these.
   bool allCount(const Workpieces& tested, SteadyTime now) const;
 
+  /// Makes the age of a workpiece begin anew, until restart(). Does nothing if there is no such workpiece.
+  void confirm(const std::string& id, const Timestamps& timestamps);
+
   /// Keeps that an update was dropped until a later one is swept.
   /// @returns false if there is no such workpiece
   bool drop(const std::string& id, SteadyTime received);
   void swept(const SweepReport& report);
-  void restart();  ///< nothing is swept
+  void restart();  ///< nothing is swept, and nothing confirmed
 
  private:
+  WarningInputs::Object* findObject(const std::string& id) const;
   void updateObjects();
   void updateBehind(const SweepReport& report);
-  void forgetDroppedOfGone();
 
   WarningInputs& inputs_;
   Workpieces newest_;
   std::vector<ReplacedTriangles> replaced_;
-  Workpieces swept_;                           // at the newest pose
-  std::map<std::string, SteadyTime> dropped_;  // by id: when the newest dropped update was received
+  Workpieces swept_;                             // at the newest pose
+  std::map<std::string, SteadyTime> dropped_;    // by id: when the newest dropped update was received
+  std::map<std::string, Timestamps> confirmed_;  // by id: when it was last said to be as it was
 };
 
 /// Returns the workpiece of this id; null: there is none.

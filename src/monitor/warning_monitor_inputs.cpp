@@ -91,17 +91,32 @@ void WarningMonitor::verticesRefused(const std::string& id, const std::string& m
   on_fault_();
 }
 
-void WarningMonitor::meshAccepted(const std::string& id, SteadyTime received) {
+bool WarningMonitor::meshAccepted(const std::string& id, SteadyTime received) {
   const Lock lock(mutex_);
-  refused_meshes_->accept(id, received);
+  const bool was_refused = refused_meshes_->accept(id, received);
   refused_vertices_->accept(id, received);
   faults_->set(kMeshInvalid, refusal());
+  return was_refused;
 }
 
 void WarningMonitor::verticesAccepted(const std::string& id, SteadyTime received) {
   const Lock lock(mutex_);
   refused_vertices_->accept(id, received);
   faults_->set(kMeshInvalid, refusal());
+}
+
+void WarningMonitor::confirmed(const std::string& id, const Timestamps& timestamps) {
+  const Lock lock(mutex_);
+  workpieces_->confirm(id, timestamps);
+}
+
+std::vector<std::pair<std::string, Timestamps>> WarningMonitor::heard() const {
+  const Lock lock(mutex_);
+  std::vector<std::pair<std::string, Timestamps>> heard;
+  for (const WarningInputs::Object& object : inputs_.objects) {
+    if (object.ages) heard.emplace_back(object.id, object.timestamps);
+  }
+  return heard;
 }
 
 std::string WarningMonitor::refusal(const std::vector<std::string>& ids) const {

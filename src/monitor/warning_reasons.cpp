@@ -54,7 +54,7 @@ void addMissing(const WarningInputs& inputs, Warning& warning) {
 void addObjectReasons(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning) {
   addMissing(inputs, warning);
   for (const WarningInputs::Object& object : inputs.objects) {
-    if (object.ages && stale(object.timestamps, now, limits.mesh_timeout)) {
+    if (object.ages && stale(object.timestamps, now, limits.meshTimeout(object.id))) {
       addObject(warning, kMeshStale,
                 {"workpiece '", object.id, "' is ", inSeconds(age(object.timestamps, now)), " old"});
     }

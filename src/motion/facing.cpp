@@ -82,7 +82,7 @@ void Facing::forgetNearest() {
 }
 
 void Facings::begin(const ProximityRequest& request, Workpieces& unplaced) {
-  rounding_ = 0.0;
+  margin_ = padding_ = 0.0;
   surface_count_ = 0;
   count_ = 0;
   surfaces_.resize(std::max(surfaces_.size(), request.workpieces.size()));  // facings point into it
@@ -116,7 +116,8 @@ void Facings::place(const ProximityRequest& request, const std::shared_ptr<const
   surface.age = motion.deforms() ? ageOf(*workpiece, request.pose) : 0.0;
   surface.boxes.assign(workpiece->mesh_M.blocks());
   surface.drift = driftOf(*workpiece, request.pose);
-  rounding_ = std::max(rounding_, workpiece->mesh_M.rounding() + surface.drift);
+  margin_ = std::max(margin_, workpiece->mesh_M.margin() + surface.drift);
+  padding_ = std::max(padding_, workpiece->mesh_M.padding());
   face(request, surface, X_WM);
 }
 

@@ -72,9 +72,10 @@ class Facings {
   size_t size() const { return count_; }
   Facing& operator[](size_t index) { return facings_[index]; }
 
-  double rounding() const { return rounding_; }  ///< the largest of the meshes [m]
-  double fastest() const;                        ///< bound on the speed of any vertex [m/s]
-  double maxDisplacement() const;                ///< bound on the displacement of any vertex since its deformation [m]
+  double margin() const { return margin_; }    ///< the largest of the meshes [m]
+  double padding() const { return padding_; }  ///< the largest of the meshes [m]
+  double fastest() const;                      ///< bound on the speed of any vertex [m/s]
+  double maxDisplacement() const;              ///< bound on the displacement of any vertex since its deformation [m]
 
  private:
   static double fastest(const PlacedSurface& surface);
@@ -87,7 +88,8 @@ class Facings {
   size_t surface_count_ = 0;
   std::vector<Facing> facings_;  // the first count_
   size_t count_ = 0;
-  double rounding_ = 0.0;
+  double margin_ = 0.0;
+  double padding_ = 0.0;
 };
 
 }  // namespace sweep_guard_core

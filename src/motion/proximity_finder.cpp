@@ -66,6 +66,7 @@ class ProximityFinder::Search {
   // Of the running search:
   const ProximityRequest* request_ = nullptr;
   Proximity* found_ = nullptr;
+  double reach_ = 0.0;  // to the triangles as they are [m]
 };
 
 void ProximityFinder::Search::begin() {
@@ -75,6 +76,7 @@ void ProximityFinder::Search::begin() {
   waiting_.clear();
   separated_.clear();
   facings_.begin(*request_, found_->unplaced);
+  reach_ = request_->reach + facings_.padding();
   for (std::uint32_t i = 0; i < facings_.size(); ++i) {
     const Facing& facing = facings_[i];
     const CenteredBox box(facing.surface->boxes.of(facing.mesh().order()));
@@ -140,7 +142,7 @@ bool ProximityFinder::Search::processPart(const WaitingPart& waiting, const Part
     quicken(*plane, facing, part, box);
     return true;
   }
-  if (waiting.bound >= request_->reach) return leaveOver(waiting.bound);
+  if (waiting.bound >= reach_) return leaveOver(waiting.bound);
   if (facing.cover.behindNearest(box)) return postpone(waiting);
   open(waiting, part, box);
   return true;
@@ -168,7 +170,7 @@ void ProximityFinder::Search::open(const WaitingPart& waiting, const Cluster& cl
   if (!facing.cover.hasNearest()) seed(waiting, cluster, box);
   const PieceCover::Classified classified = facing.cover.classify(cluster, box);
   for (const size_t plane : classified.standing) quicken(plane, facing, cluster, box);
-  const double limit = std::min(facing.nearest, request_->reach);
+  const double limit = std::min(facing.nearest, reach_);
   double rest = classified.not_nearer != 0 ? facing.nearest : kInfinity;
   for (std::uint64_t left = classified.nearer; left != 0; left &= left - 1) {
     const std::uint32_t triangle = facing.triangleAt(cluster, left);
@@ -202,7 +204,7 @@ void ProximityFinder::Search::seed(const WaitingPart& waiting, const Cluster& cl
     if (distance < least) nearest = triangle;
     least = std::min(least, distance);
   }
-  if (least >= request_->reach) return;
+  if (least >= reach_) return;
   const SeparatedTriangle separated = facing.separate(nearest);
   if (separated.gap > 0.0) wait(waiting.facing, separated);
 }
@@ -228,7 +230,7 @@ bool ProximityFinder::Search::processTriangle(const WaitingPart& waiting) {
     quicken(*plane, facing, facing.mesh().triangles()[separated.triangle]);
     return true;
   }
-  if (waiting.bound >= request_->reach) return leaveOver(waiting.bound);
+  if (waiting.bound >= reach_) return leaveOver(waiting.bound);
   if (!known) {
     if (facing.cover.behindNearest(at)) return postpone(waiting);
     separated = facing.separate(separated.triangle);
@@ -245,13 +247,13 @@ bool ProximityFinder::Search::standFor(const WaitingPart& waiting, const Separat
   Facing& facing = facings_[waiting.facing];
   if (separated.gap <= 0.0 && joinFacingPlane(facing, separated, request_->pose.X_WT, found_->planes)) return true;
   const double distance = std::min((1.0 - kNearer) * separated.gap, leastBound());
-  if (distance >= request_->reach || found_->planes.size() == kMaxPlanes) return leaveOver(distance);
+  if (distance >= reach_ || found_->planes.size() == kMaxPlanes) return leaveOver(distance);
   addFacingPlane(facing, separated, request_->pose.X_WT, found_->planes);
   return true;
 }
 
 bool ProximityFinder::Search::leaveOver(double distance) {
-  found_->uncovered.distance = std::max(0.0, distance - facings_.rounding() - facings_.maxDisplacement());
+  found_->uncovered.distance = std::max(0.0, distance - facings_.margin() - facings_.maxDisplacement());
   found_->uncovered.speed = facings_.fastest();
   return false;
 }

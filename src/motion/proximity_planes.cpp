@@ -30,9 +30,11 @@ void addFacingPlane(Facing& facing, const SeparatedTriangle& separated, const Ei
                     std::vector<ProximityPlane>& planes) {
   const TriangleMesh& mesh_M = facing.mesh();
   const double slack = separated.gap > 0.0 ? std::max(kSlack * separated.gap, kMinSlack * mesh_M.radius()) : 0.0;
-  const double step = slack + mesh_M.rounding();
+  const double step = slack + mesh_M.margin();
   const Eigen::Vector3d point_T = separated.top_T + step * separated.normal_T;
-  if (separated.gap > 0.0) facing.cover.add(separated.normal_T, separated.normal_T.dot(point_T), planes.size());
+  const double behind =
+      separated.normal_T.dot(separated.top_T) + slack;  // the rest of what it stands for has a margin, too
+  if (separated.gap > 0.0) facing.cover.add(separated.normal_T, behind, planes.size());
   const double drift = facing.surface->drift;
   planes.push_back({{facing.piece, X_WT.linear() * separated.normal_T, X_WT * (point_T + drift * separated.normal_T),
                      separated.gap - step - drift, -kInfinity},
@@ -50,7 +52,7 @@ bool joinFacingPlane(const Facing& facing, const SeparatedTriangle& separated, c
   const PointHull hull(facing.cover.corners_T(facing.corners(separated.triangle)));
   const Eigen::Vector3d top_W = X_WT * hull.supportPoint(X_WT.linear().transpose() * plane.normal_W);
   const double step =
-      std::max(0.0, plane.normal_W.dot(top_W - plane.point_W) + facing.mesh().rounding() + facing.surface->drift);
+      std::max(0.0, plane.normal_W.dot(top_W - plane.point_W) + facing.mesh().margin() + facing.surface->drift);
   moveOn(plane, step);
   quicken(plane, facing, X_WT, facing.mesh().triangles()[separated.triangle]);
   return true;

@@ -24,6 +24,7 @@ void Workpieces::setProblem(const std::string& id, const std::string& problem) {
 }
 
 void Workpieces::take(const sweep_guard::DeformableMesh& mesh) {
+  if (!mesh.refused.empty()) return setProblem(mesh.id, mesh.refused);
   vertices_.erase(mesh.id);
   problems_.erase(mesh.id);
   if (mesh.mesh.vertices.empty() && mesh.mesh.triangles.empty()) {
@@ -33,7 +34,9 @@ void Workpieces::take(const sweep_guard::DeformableMesh& mesh) {
   }
 }
 
-void Workpieces::take(const sweep_guard::MeshVertices::ConstPtr& vertices) { vertices_[vertices->id] = vertices; }
+void Workpieces::take(const sweep_guard::MeshVertices::ConstPtr& vertices) {
+  if (!vertices->positions.empty()) vertices_[vertices->id] = vertices;
+}
 
 void Workpieces::deform() {
   for (const auto& [id, vertices] : vertices_) {

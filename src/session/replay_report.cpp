@@ -187,7 +187,7 @@ class ReplayReport {
     warning_ = node_.subscribe("warning", kQueue, &ReplayReport::onWarning, this, ros::TransportHints().tcpNoDelay());
     require([this] { return contacts_.getNumPublishers() > 0 && warned_; },
             "no guard on " + contacts_.getTopic() + "; see its log");
-    require([this] { return meshInBag() || knows_mesh_; }, "the guard got no workpiece; see the log of static_mesh");
+    require([this] { return meshInBag() || knows_mesh_; }, "the guard got no workpiece; see the log of scene_input");
     const std::string service = ros::names::resolve("pause_playback");
     require([this, &service] { return clock_.getNumPublishers() > 0 && ros::service::exists(service, false); },
             "the bag is not played: no service " + service + ". Each topic of the player needs a subscriber");

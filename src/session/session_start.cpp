@@ -20,7 +20,7 @@ class StartReader {
 
   void take(const rosbag::MessageInstance& message) {
     if (const auto mesh = message.instantiate<sweep_guard::DeformableMesh>()) takeMesh(mesh);
-    if (const auto vertices = message.instantiate<sweep_guard::MeshVertices>()) vertices_[vertices->id] = vertices;
+    if (const auto vertices = message.instantiate<sweep_guard::MeshVertices>()) takeVertices(vertices);
     if (const auto transforms = message.instantiate<tf2_msgs::TFMessage>()) takeTransforms(*transforms);
     if (const auto intend = message.instantiate<sweep_guard::Intend>()) takeIntend(*intend, message.getTime());
   }
@@ -37,11 +37,15 @@ class StartReader {
   }
 
  private:
+  void takeVertices(const sweep_guard::MeshVertices::ConstPtr& vertices) {
+    if (!vertices->positions.empty()) vertices_[vertices->id] = vertices;
+  }
+
   // Without triangles it removes the workpiece.
   void takeMesh(const sweep_guard::DeformableMesh::ConstPtr& mesh) {
     vertices_.erase(mesh->id);
     meshes_.erase(mesh->id);
-    if (!mesh->mesh.triangles.empty()) meshes_[mesh->id] = mesh;
+    if (!mesh->mesh.triangles.empty() || !mesh->refused.empty()) meshes_[mesh->id] = mesh;
   }
 
   void takeTransforms(const tf2_msgs::TFMessage& message) {

@@ -16,8 +16,12 @@ namespace sweep_guard_session {
 /// Keeps the touches that a guard counted in a session, and the newest shape of each workpiece.
 class TouchLog {
  public:
-  void take(const sweep_guard::DeformableMesh::ConstPtr& mesh) { meshes_[mesh->id] = mesh; }
-  void take(const sweep_guard::MeshVertices::ConstPtr& vertices) { vertices_[vertices->id] = vertices; }
+  void take(const sweep_guard::DeformableMesh::ConstPtr& mesh) {
+    if (mesh->refused.empty()) meshes_[mesh->id] = mesh;
+  }
+  void take(const sweep_guard::MeshVertices::ConstPtr& vertices) {
+    if (!vertices->positions.empty()) vertices_[vertices->id] = vertices;
+  }
   void take(const sweep_guard::Touches::ConstPtr& touches) { touches_ = *touches; }
   void readShapes(const SessionFiles& files, const SessionTopics& topics);  ///< takes the newest of each workpiece
 

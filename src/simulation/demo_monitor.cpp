@@ -149,6 +149,7 @@ class DemoMonitor {
     for (const geometry_msgs::Point& p : mesh->mesh.vertices) rest_.emplace_back(p.x, p.y, p.z);
   }
   void onMeshVertices(const sweep_guard::MeshVertices::ConstPtr& vertices) {
+    if (vertices->positions.empty()) return;
     statistics_.addMeshUpdate(fromMsg(vertices->header.stamp));
     if (!rest_.empty()) statistics_.addDent(dentOf(vertices->positions));
   }

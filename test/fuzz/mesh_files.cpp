@@ -8,14 +8,17 @@
 
 #include "input.h"
 #include "require.h"
+#include "ros/tool/gltf_facets.h"
 #include "ros/tool/mesh_answer.h"
 #include "ros/tool/mesh_text.h"
 #include "ros/tool/mesh_wire.h"
+#include "ros/tool/ply_facets.h"
 #include "ros/tool/stl_facets.h"
 
 namespace sweep_guard_fuzz {
 namespace {
 
+using sweep_guard_ros::Facet;
 using sweep_guard_ros::StlFacet;
 
 // Counts as a reader does that knows nothing but lines and words.
@@ -80,18 +83,50 @@ std::string binaryStl(const std::vector<StlFacet>& facets) {
   return bytes;
 }
 
-void checkStl(const std::string& bytes) {
-  std::vector<StlFacet> facets;
+std::string binaryPly(const std::vector<Facet>& facets) {
+  std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(3 * facets.size()) +
+                      "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
+                      std::to_string(facets.size()) + "\nproperty list uchar uint vertex_index\nend_header\n";
+  for (const Facet& facet : facets) append(bytes, facet);
+  for (std::uint32_t corner = 0; corner < 3 * facets.size(); ++corner) {
+    if (corner % 3 == 0) bytes += '\3';
+    append(bytes, corner);
+  }
+  return bytes;
+}
+
+// Empty: it is refused.
+template <typename Read>
+auto triangles(const std::string& bytes, const Read& read) {
+  decltype(read(bytes)) facets;
   try {
-    facets = sweep_guard_ros::readStlFacets(bytes);
+    facets = read(bytes);
   } catch (const std::runtime_error& error) {
     require(std::strlen(error.what()) < 200, "a refusal is short");
-    return;
   }
-  const std::vector<StlFacet> again = sweep_guard_ros::readStlFacets(binaryStl(facets));
+  return facets;
+}
+
+template <typename Facets>
+void requireEqual(const Facets& again, const Facets& facets) {
   require(again.size() == facets.size(), "no triangle is lost or made up");
-  require(facets.empty() || std::memcmp(again.data(), facets.data(), facets.size() * sizeof(StlFacet)) == 0,
+  require(facets.empty() || std::memcmp(again.data(), facets.data(), facets.size() * sizeof(facets[0])) == 0,
           "corners stay as they are");
+}
+
+void checkStl(const std::string& bytes) {
+  const auto facets = triangles(bytes, sweep_guard_ros::readStlFacets);
+  requireEqual(sweep_guard_ros::readStlFacets(binaryStl(facets)), facets);
+}
+
+void checkPly(const std::string& bytes) {
+  const auto facets = triangles(bytes, sweep_guard_ros::readPlyFacets);
+  if (!facets.empty()) requireEqual(sweep_guard_ros::readPlyFacets(binaryPly(facets)), facets);
+}
+
+void checkGltf(const std::string& bytes) {
+  require(triangles(bytes, sweep_guard_ros::readGltfFacets).size() <= sweep_guard_ros::kMaxMeshTriangles,
+          "there are at most a million triangles");
 }
 
 void checkAnswer(const std::string& answer) {
@@ -116,6 +151,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, size_t size) {
   if (what == 'o') sweep_guard_fuzz::checkText(rest, "obj");
   if (what == 's') sweep_guard_fuzz::checkStl(rest);
   if (what == 'd') sweep_guard_fuzz::checkText(rest, "dae");
+  if (what == 'p') sweep_guard_fuzz::checkPly(rest);
+  if (what == 'g') sweep_guard_fuzz::checkGltf(rest);
   if (what == 'a') sweep_guard_fuzz::checkAnswer(rest);
   return 0;
 }

@@ -14,7 +14,7 @@ namespace {
 using namespace sweep_guard_core;  // NOLINT(google-build-using-namespace): the monitor's whole vocabulary
 using std::chrono::milliseconds;
 
-constexpr WarningLimits kLimits = {milliseconds(100), milliseconds(500), milliseconds(500)};
+const WarningLimits kLimits = {milliseconds(100), milliseconds(500), milliseconds(500)};
 constexpr int kIds = MonitorModel::kIds;
 const std::array<std::string, kIds> kNames = {"bone", "liver", "vein"};
 constexpr std::array<Reason, 5> kFaults = {kPoseInvalid, kOutOfOrder, kFutureStamp, kTfFail, kDetectorFault};

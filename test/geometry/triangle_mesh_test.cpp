@@ -119,6 +119,16 @@ TEST(TriangleMeshTest, AddsWhatThePositionsWereRoundedByBefore) {
   EXPECT_EQ(mesh.rounding(), 0.002);
 }
 
+TEST(TriangleMeshTest, ItsPaddingIsPartOfItsMarginAlsoAfterADeformation) {
+  TriangleMesh mesh(kVertices, kTriangles);
+  EXPECT_EQ(mesh.margin(), mesh.rounding());
+  mesh.pad(0.25);
+  EXPECT_EQ(mesh.margin(), 0.25);
+  const TriangleMesh later = deformed(mesh, std::vector<float>(12, 1.0F));
+  EXPECT_EQ(later.padding(), 0.25);
+  EXPECT_EQ(later.margin(), 0.25 + later.rounding());
+}
+
 // The list of triangles is not copied at 60 Hz.
 TEST(TriangleMeshTest, SharesItsTrianglesWithItsDeformations) {
   const TriangleMesh mesh(kVertices, kTriangles);

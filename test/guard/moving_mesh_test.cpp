@@ -19,6 +19,16 @@ TEST(MovingMeshTest, ThatRestsHasNotMoved) {
   EXPECT_EQ(MovingMesh(kFlat).spread(), kFlat.rounding());
 }
 
+TEST(MovingMeshTest, ItsPaddingIsPartOfSpreadAndUncertaintyWhetherItMovesOrRests) {
+  TriangleMesh up = triangle({0, 0, 2}, {1, 0, 2}, {0, 1, 2});
+  up.pad(0.5);
+  EXPECT_EQ(MovingMesh(up).spread(), 0.5);
+  EXPECT_EQ(MovingMesh(up).uncertainty(), 0.5);
+  const MovingMesh mesh(up, kFlat, {kFlat, up}, 0.25);
+  EXPECT_NEAR(mesh.spread(), 0.75, 1e-6);
+  EXPECT_NEAR(mesh.uncertainty(), 0.75, 1e-6);
+}
+
 TEST(MovingMeshTest, ThatMovesAsAWholeIsTranslatedWithoutSpread) {
   const TriangleMesh up = triangle({0, 0, 2}, {1, 0, 2}, {0, 1, 2});
   const MovingMesh mesh(up, kFlat, {kFlat, up}, 0.0);

@@ -72,6 +72,8 @@ PredictedObject checkedAlone(const PathScene& scene) {
   return object;
 }
 
+constexpr double kSharedRounding = 0x1p-20;  // [m] more than that of these meshes, which share one path
+
 // Of each piece in one step, compared with each triangle.
 std::vector<double> clearances(const PathScene& scene, size_t step) {
   const PredictedPose& end = scene.path[step];
@@ -80,7 +82,7 @@ std::vector<double> clearances(const PathScene& scene, size_t step) {
   std::vector<double> all;
   for (const ConvexPiece& piece : scene.tool.pieces()) {
     const SweptVolume swept_M =
-        sweptVolume(piece.shape_T, motion, SweepOptions().volume, SweepOptions().margin + mesh_M.rounding());
+        sweptVolume(piece.shape_T, motion, SweepOptions().volume, SweepOptions().margin + kSharedRounding);
     all.push_back(
         clearanceByClipping(mesh_M, swept_M, planeDeviations(piece.shape_T, end.X_WT, end.covariance, swept_M)));
   }

@@ -229,6 +229,54 @@ TEST(WorkpieceStoreTest, IgnoresVerticesFromBeforeTheRemoval) {
   EXPECT_EQ(store.deform({other, 7, atSecond(4), {}, kFrame, kRaised}, atSecond(9)), UpdateOutcome::kUnknownWorkpiece);
 }
 
+Deformation unchanged(int stamp, const std::string& frame = kFrame, std::uint32_t revision = 7) {
+  static const std::vector<float> kNone;
+  return {kId, revision, atSecond(stamp), {}, frame, kNone};
+}
+
+TEST(WorkpieceStoreTest, WithoutPositionsAnUpdateConfirmsTheSnapshotAndChangesNothing) {
+  int changes = 0;
+  WorkpieceStore store([&](const auto&) { ++changes; });
+  store.set(triangleAt(1), atSecond(9));
+  store.deform(raised(2), atSecond(9));
+  const auto before = store.snapshot()[0];
+  EXPECT_EQ(store.deform(unchanged(2), atSecond(9)), UpdateOutcome::kConfirmed);
+  EXPECT_EQ(store.deform(unchanged(5), atSecond(9)), UpdateOutcome::kConfirmed);
+  EXPECT_EQ(store.snapshot()[0], before);
+  EXPECT_EQ(changes, 2);
+  EXPECT_EQ(store.deform(raised(3), atSecond(9)), UpdateOutcome::kStored) << "what it confirms keeps its stamp";
+}
+
+// It comes on another topic than the mesh, and may be there first.
+TEST(WorkpieceStoreTest, WhatConfirmsAnotherSnapshotIsIgnored) {
+  WorkpieceStore store;
+  EXPECT_EQ(store.deform(unchanged(1), atSecond(9)), UpdateOutcome::kIgnored);
+  store.set(triangleAt(3), atSecond(9));
+  EXPECT_EQ(store.deform(unchanged(2), atSecond(9)), UpdateOutcome::kIgnored) << "older";
+  EXPECT_EQ(store.deform(unchanged(4, kOtherFrame), atSecond(9)), UpdateOutcome::kIgnored);
+  EXPECT_EQ(store.deform(unchanged(4, kFrame, 8), atSecond(9)), UpdateOutcome::kIgnored);
+  store.remove(kId, atSecond(5));
+  EXPECT_EQ(store.deform(unchanged(6), atSecond(9)), UpdateOutcome::kIgnored);
+}
+
+TEST(WorkpieceStoreTest, AnAttachedWorkpieceIsConfirmedToo) {
+  WorkpieceStore store;
+  store.set(triangleAt(1), atSecond(9));
+  store.attach(store.snapshot()[0], Eigen::Isometry3d::Identity());
+  EXPECT_EQ(store.deform(unchanged(2), atSecond(9)), UpdateOutcome::kConfirmed);
+  EXPECT_EQ(store.deform(unchanged(2, kFrame, 8), atSecond(9)), UpdateOutcome::kIgnored);
+}
+
+TEST(WorkpieceStoreTest, ADeformationKeepsThePadding) {
+  WorkpieceStore store;
+  Workpiece padded = triangleAt(1);
+  padded.mesh_M.pad(0.01);
+  store.set(padded, atSecond(9));
+  store.deform(raised(2), atSecond(9));
+  store.deform(raised(3), atSecond(9));
+  EXPECT_EQ(store.snapshot()[0]->mesh_M.padding(), 0.01);
+}
+
 // `rostopic pub` stamps with 0.
 TEST(WorkpieceStoreTest, ARemovalWithoutAStampCountsFromTheNewestVertices) {
   WorkpieceStore store;

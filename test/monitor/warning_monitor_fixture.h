@@ -22,7 +22,7 @@ inline const double kReflexAt = deviationsAt(PredictionInterval::kReflex, kThres
 inline const double kConsideredOnAt = deviationsAt(PredictionInterval::kConsidered, kThresholds.considered_on);
 inline const double kConsideredOffAt = deviationsAt(PredictionInterval::kConsidered, kThresholds.considered_off);
 
-inline constexpr WarningLimits kLimits = {milliseconds(100), milliseconds(500), milliseconds(500)};
+inline const WarningLimits kLimits = {milliseconds(100), milliseconds(500), milliseconds(500)};
 
 inline Instant at(int ms) { return {Time(milliseconds(ms)), SteadyTime(milliseconds(ms))}; }
 inline Timestamps timestampsAt(int ms) { return {at(ms).stamp, at(ms).steady}; }

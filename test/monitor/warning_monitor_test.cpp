@@ -451,6 +451,48 @@ TEST_F(WarningMonitorTest, AMessageOfNoWorkpieceCountsForASecond) {
   }
 }
 
+TEST_F(WarningMonitorTest, AConfirmedWorkpieceIsAsYoungAsItsConfirmation) {
+  monitor_.confirmed("liver", timestampsAt(1400));
+  sweep(reportOf(workpieces_), 1890);
+  EXPECT_EQ(levelAt(1900), WarningLevel::kClear);
+  EXPECT_EQ(reasonsAt(1901), kMeshStale);
+  EXPECT_EQ(monitor_.heard().at(0).second.stamp, at(1400).stamp);
+  monitor_.confirmed("ghost", timestampsAt(1890));
+  EXPECT_EQ(monitor_.heard().size(), 1U);
+}
+
+// Other workpieces change all the time.
+TEST_F(WarningMonitorTest, AConfirmationLastsWhenOtherWorkpiecesChangeAndEndsWithItsWorkpiece) {
+  monitor_.confirmed("liver", timestampsAt(1400));
+  monitor_.setWorkpieces({workpieces_[0], workpiece("spleen", 1400)});
+  EXPECT_EQ(monitor_.heard().at(0).second.stamp, at(1400).stamp);
+  monitor_.setWorkpieces({workpiece("liver", 1500), workpiece("spleen", 1400)});
+  EXPECT_EQ(monitor_.heard().at(0).second.stamp, at(1500).stamp) << "newer positions";
+  monitor_.confirmed("liver", timestampsAt(1600));
+  monitor_.setWorkpieces({workpiece("spleen", 1400)});
+  monitor_.setWorkpieces({workpieces_[0]});
+  EXPECT_EQ(monitor_.heard().at(0).second.stamp, at(1000).stamp);
+}
+
+// Its stamp may lie in the future now.
+TEST_F(WarningMonitorTest, AConfirmationIsForgottenWhenTimeJumps) {
+  monitor_.confirmed("liver", timestampsAt(1400));
+  monitor_.timeJumped("time went back");
+  monitor_.setWorkpieces(workpieces_);
+  EXPECT_EQ(monitor_.heard().at(0).second.stamp, at(1000).stamp);
+}
+
+// Its sender says that nothing has changed since; what it sent did not arrive.
+TEST_F(WarningMonitorTest, AConfirmationDoesNotExcuseADroppedOrARefusedUpdate) {
+  monitor_.updateDropped("liver", at(1100).steady);
+  monitor_.confirmed("liver", timestampsAt(1200));
+  sweep(reportOf(workpieces_), 1200);
+  EXPECT_EQ(reasonsAt(1200), kMeshDropped);
+  monitor_.verticesRefused("liver", "vertex 0 is NaN", at(1100).steady);
+  monitor_.confirmed("liver", timestampsAt(1300));
+  EXPECT_EQ(reasonsAt(1200), kMeshDropped | kMeshInvalid);
+}
+
 TEST(EventsTest, AreReportedAtOnce) {
   int reported = 0;
   WarningMonitor monitor(kLimits, [&] { ++reported; });

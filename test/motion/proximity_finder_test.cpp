@@ -309,6 +309,43 @@ TEST(ProximityFinderTest, WhatIsBeyondTheReachBoundsTheSpeedAsAWhole) {
   EXPECT_EQ(found.planes.size(), 1U);
 }
 
+TEST(ProximityFinderTest, APaddedWorkpieceCountsAsNearerByItsPadding) {
+  TriangleMesh padded = square(10);
+  padded.pad(0.02);
+  const Tool tool(ConvexShape::sphere(0.01));
+  ProximityFinder finder;
+  Proximity found;
+  for (const double distance : {0.03, 0.119}) {
+    finder.find({tool, poseAt(placedAt(0.0, 0.0, 0.01 + distance)), {workpieceOf(padded)}, 0.1}, found);
+    ASSERT_EQ(found.planes.size(), 1U) << distance;
+    EXPECT_LE(found.planes[0].plane.gap, distance - 0.02);
+    EXPECT_GE(found.planes[0].plane.point_W.z(), 0.02);
+  }
+  finder.find({tool, poseAt(placedAt(0.0, 0.0, 0.13 + 0.0001)), {workpieceOf(padded)}, 0.1}, found);
+  EXPECT_TRUE(found.planes.empty());
+  EXPECT_NEAR(found.uncovered.distance, 0.1, 1e-3);
+}
+
+// All of what it stands for is padded, not only the triangle that it was made for.
+TEST(ProximityFinderTest, APlaneOfAPaddedWorkpieceLeavesItsPaddingBeforeEachTriangle) {
+  Random random(5);
+  ProximityFinder finder;
+  Proximity found;
+  for (int i = 0; i < 50; ++i) {
+    TriangleMesh padded = square(10, random.rotation());
+    padded.pad(0.02);
+    const auto workpiece = workpieceOf(padded);
+    finder.find({Tool(ConvexShape::sphere(0.01)), poseAt(placedAt(0.0, 0.0, 0.16)), {workpiece}, 0.2}, found);
+    for (size_t vertex = 0; vertex < padded.vertexCount(); ++vertex) {
+      const auto clears = [&](const ProximityPlane& each) {
+        return each.plane.normal_W.dot(padded.vertex(vertex) - each.plane.point_W) <= -0.02;
+      };
+      const bool is_cleared = std::any_of(found.planes.begin(), found.planes.end(), clears);
+      EXPECT_TRUE(is_cleared || padded.vertex(vertex).norm() < found.uncovered.distance) << vertex;
+    }
+  }
+}
+
 TEST(ProximityFinderTest, WithoutWorkpieceThereIsNothing) {
   ProximityFinder finder;
   Proximity found;

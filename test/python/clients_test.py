@@ -74,6 +74,19 @@ class MeshPublisherTest(RunningGuardTest):
         self.addCleanup(subscriber.unregister)
         return messages
 
+    def test_a_workpiece_that_rests_is_confirmed_ten_times_a_second_and_cannot_deform(self):
+        vertices = self.received('mesh_vertices', MeshVertices)
+        publisher = self.publisher('table', rests=True)
+        publisher.publish(TRIANGLE, FACES)
+        for revision in (publisher.revision, publisher.revision + 1):
+            message = vertices.get(timeout=PATIENCE)
+            while message.revision != revision:
+                message = vertices.get(timeout=PATIENCE)
+            self.assertEqual((message.id, message.header.frame_id, len(message.positions)), ('table', 'world', 0))
+            publisher.publish(TRIANGLE, FACES)
+        with self.assertRaisesRegex(ValueError, "'table' rests: publish"):
+            publisher.deform(TRIANGLE)
+
     def test_the_guard_knows_a_published_mesh(self):
         publisher = self.publish_triangle()
         met, = check(0.5, -0.5).objects

@@ -116,6 +116,11 @@ TEST(MessageKeyTest, VerticesDependOnTheMeshOfTheirWorkpiece) {
   EXPECT_EQ(keyOf(KeptMessages::kEachMesh, bytes.size()), "workpiece liver");
   EXPECT_EQ(keyOf(KeptMessages::kEachVertices, bytes.size()), "workpiece liver\nvertices");
   EXPECT_EQ(keyOf(KeptMessages::kNewest, bytes.size()), "/mesh_vertices /camera");
+  vertices.positions.clear();  // as they were: it replaces no positions
+  const std::vector<std::uint8_t> unchanged = bytesOf(vertices);
+  EXPECT_EQ(messageKey({"/v", "/mesh_vertices", KeptMessages::kEachVertices}, "/camera",
+                       {unchanged.data(), unchanged.size()}),
+            "");
   for (std::size_t size = 0; size < 30; ++size) EXPECT_EQ(keyOf(KeptMessages::kEachMesh, size), "") << size;
   for (std::size_t size = 0; size < 30; ++size) EXPECT_EQ(keyOf(KeptMessages::kEachTransform, size), "") << size;
 }

@@ -260,7 +260,7 @@ TEST(WrappedLengthTest, IsRefusedThoughItsBytesAreThere) {
   sweep_guard::DeformableMesh mesh;
   mesh.mesh.triangles.resize(1);
   mesh.mesh.vertices.resize(1);
-  const size_t triangles = positions + 1;
+  const size_t triangles = positions + 1 + 4;  // `open` and the length of `refused`
   for (const size_t position : {triangles, triangles + 4 + 12}) {
     EXPECT_NO_THROW(check<sweep_guard::DeformableMesh>(withLength(serialized(mesh), position, 1)));
     for (const std::uint32_t forged : {0x40000001U, 0x20000001U}) {

@@ -79,7 +79,7 @@ class GuardThreadTest : public ::testing::Test {
   sweep_guard_core::WarningMonitor monitor_{parameters_.initial().limits};
   sweep_guard_core::WorkpieceStore workpieces_{[this](const auto& workpieces) { monitor_.setWorkpieces(workpieces); }};
   WarningPublisher warnings_{node_, parameters_, monitor_};
-  ScenePublisher scene_{node_, parameters_, monitor_};
+  ScenePublisher scene_{node_, parameters_, monitor_, workpieces_};
   TouchesPublisher touches_{node_};
   sweep_guard_core::SweepStatistics statistics_{parameters_.initial().guard.cycle};
   sweep_guard_core::QuerySampler sampler_{/*every=*/0};

@@ -1,6 +1,7 @@
 // Meshes are found only in allowed folders, and read completely or not at all. No file stops the guard.
 #include "sweep_guard/ros/tool/mesh_file.h"
 #include "data_path.h"
+#include "mesh_samples.h"
 #include "refusal.h"
 
 #include <gtest/gtest.h>
@@ -95,6 +96,9 @@ TEST_F(MeshFileTest, ReadsEveryFormat) {
   expectUnitTetrahedron(readMesh(folder_.write("t.STL", asciiStl())));
   expectUnitTetrahedron(readMesh(folder_.write("b.stl", binaryStl(4))));
   expectUnitTetrahedron(readMesh(folder_.write("t.dae", dae("", "", kInstance))));
+  expectUnitTetrahedron(readMesh(folder_.write("t.ply", tetrahedronPly())));
+  expectUnitTetrahedron(readMesh(folder_.write("t.gltf", tetrahedronGltf())));
+  expectUnitTetrahedron(readMesh(folder_.write("t.GLB", tetrahedronGlb())));
 }
 
 // A model names its unit. Its axes are kept even if z is not up.
@@ -132,7 +136,11 @@ TEST_F(MeshFileTest, RefusesWhatItCannotReadCompletely) {
   EXPECT_TRUE(has(refused("lfs.obj", "version https://git-lfs.github.com/spec/v1\noid sha256:0\n"), "git lfs pull"));
   const std::string cut = refused("cut.dae", "<COLLADA version='1.4.1'><asset>");
   EXPECT_TRUE(has(cut, "XML") || has(cut, "Collada: File came out empty")) << cut;  // assimp 5.0 says the latter
-  EXPECT_TRUE(has(refused("t.ply", "ply"), "STL, OBJ or DAE"));
+  EXPECT_TRUE(has(refused("nan.ply", withPart(tetrahedronPly(), "1 0 0", "1 0 nan")), "NaN"));
+  EXPECT_TRUE(has(refused("cloud.ply", withPart(tetrahedronPly(), "face 4", "face 0")), "a point cloud is no surface"));
+  EXPECT_TRUE(has(refused("cut.glb", tetrahedronGlb().substr(0, 400)), "cut off"));
+  EXPECT_TRUE(has(refused("lines.gltf", withPart(tetrahedronGltf(), "s\": 1", "s\": 1, \"mode\": 1")), "no triangles"));
+  EXPECT_TRUE(has(refused("t.off", "OFF"), "give an STL, OBJ, DAE, PLY or glTF file"));
 }
 
 std::string replacedAll(std::string text, const std::string& part, const std::string& by) {
@@ -293,7 +301,7 @@ TEST_F(MeshFileTest, SurvivesEveryHostileFileUnderEveryName) {
   int read = 0;
   int refused_files = 0;
   for (const auto& entry : fs::directory_iterator(hostile)) {
-    for (const char* const name : {"h.stl", "h.obj", "h.dae"}) {
+    for (const char* const name : {"h.stl", "h.obj", "h.dae", "h.ply", "h.gltf", "h.glb"}) {
       const fs::path copy = folder_.path() / name;
       fs::copy_file(entry.path(), copy, fs::copy_options::overwrite_existing);
       fs::permissions(copy, fs::perms::owner_all);

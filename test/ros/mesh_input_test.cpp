@@ -94,6 +94,40 @@ TEST_F(MeshInputTest, VerticesDoNotOvertakeTheirMesh) {
   EXPECT_EQ(input_.droppedUpdates(), 0U);
 }
 
+TEST_F(MeshInputTest, AMeshThatItsSenderRefusesIsRefusedInItsWords) {
+  const auto mesh = strip(begin_);
+  const auto refused = boost::make_shared<sweep_guard::DeformableMesh>(*mesh);
+  refused->refused = "a shape is a cone";
+  meshes_.publish(mesh);
+  meshes_.publish(refused);
+  EXPECT_TRUE(await([&] { return problems() == "workpiece 'square' refused: its sender says: a shape is a cone"; }));
+  EXPECT_TRUE(await([&] { return workpieces_.contains(kId); })) << "the mesh before stays";
+  const auto again = boost::make_shared<sweep_guard::DeformableMesh>(*mesh);
+  again->header.stamp += ros::Duration(0.01);
+  meshes_.publish(again);
+  EXPECT_TRUE(await([&] { return problems().empty(); }));
+}
+
+// It says nothing of where the workpiece is, so nothing but the end of its age depends on it.
+TEST_F(MeshInputTest, WhatIsWrongWithAMessageWithoutPositionsCountsForASecond) {
+  const auto mesh = strip(begin_);
+  meshes_.publish(mesh);
+  ASSERT_TRUE(await([&] { return problems().empty(); }));
+  auto unchanged = boost::make_shared<sweep_guard::MeshVertices>();
+  unchanged->header = mesh->header;
+  unchanged->id = kId;
+  unchanged->header.stamp = ros::Time::now() + ros::Duration(100.0);
+  vertices_.publish(unchanged);
+  ASSERT_TRUE(await([&] { return !problems().empty(); }));
+  EXPECT_EQ(problems(1.1), "");
+  const auto before = workpieces_.snapshot()[0];
+  unchanged = boost::make_shared<sweep_guard::MeshVertices>(*unchanged);
+  unchanged->header.stamp = ros::Time::now();
+  vertices_.publish(unchanged);
+  ASSERT_TRUE(await([&] { return monitor_.heard().at(0).second.stamp == fromMsg(unchanged->header.stamp); }));
+  EXPECT_EQ(workpieces_.snapshot()[0], before);
+}
+
 // The good one is accepted after the bad one behind it is refused: it is converted first, and stored later.
 TEST_F(MeshInputTest, AGoodMeshDoesNotExcuseABadOneThatCameAfterIt) {
   const auto good = strip(begin_);

@@ -585,6 +585,28 @@ TEST_F(NodeTest, MarkersShowToolVolumeAndTouchedTriangles) {
   }
 }
 
+TEST_F(NodeTest, MarkersShowAWorkpieceUntilItIsRemoved) {
+  using visualization_msgs::Marker;
+  placeSquare("square", {0.0, 0.0, 0.0}, "world", /*half_side=*/0.07);
+  Marker drawn;
+  probe().awaitMarkers([&](const visualization_msgs::MarkerArray& array) {
+    for (const Marker& marker : array.markers) {
+      if (marker.ns == "workpieces" && !marker.points.empty() && std::abs(std::abs(marker.points[0].x) - 0.07) < 1e-6)
+        drawn = marker;
+    }
+    return !drawn.points.empty();
+  });
+  EXPECT_EQ(drawn.points.size(), 6U);
+  EXPECT_EQ(drawn.header.frame_id, "world");
+  probe().remove("square");
+  placed_.erase("square");
+  probe().awaitMarkers([&](const visualization_msgs::MarkerArray& array) {
+    return std::any_of(array.markers.begin(), array.markers.end(), [&](const Marker& marker) {
+      return marker.ns == "workpieces" && marker.id == drawn.id && marker.action == Marker::DELETE;
+    });
+  });
+}
+
 TEST_F(NodeTest, TheViewShowsVolumesAndContacts) {
   placeSquare("square", {0.0, 0.0, 0.0});
   moveTo({0.0, 0.0, 0.05});

@@ -349,20 +349,72 @@ TEST_F(ParametersTest, JointsWithSlashesAreHeldWhereTheyAreSet) {
   }
 }
 
+TEST_F(ParametersTest, TheGeometryOfTheToolIsTheOneAskedFor) {
+  const std::string ball = "<geometry><sphere radius='0.1'/></geometry>";
+  ros::param::set("/robot_description", "<robot name='r'><link name='tool'><collision>" + ball +
+                                            "</collision><visual>" + ball +
+                                            "</visual></link><link name='tip'><visual>" + ball +
+                                            "</visual></link><joint name='j' type='fixed'><parent link='tool'/>"
+                                            "<child link='tip'/></joint></robot>");
+  node_.setParam("tool/type", "urdf");
+  const auto are_visual = [this](const std::string& geometry) {
+    node_.setParam("tool/geometry", geometry);
+    std::vector<bool> visual;
+    for (const LinkShape& shape : loadParameters(node_).link_shapes) visual.push_back(shape.is_visual);
+    return visual;
+  };
+  EXPECT_EQ(are_visual("either"), (std::vector<bool>{false, true}));
+  EXPECT_EQ(are_visual("visual"), (std::vector<bool>{true, true}));
+  node_.setParam("tool/geometry", "collision");
+  EXPECT_TRUE(has(refusal(node_), "link 'tip': it has visual geometry, but no collision"));
+}
+
 // YAML's key /left/drill would be a parameter beside the node's.
 TEST_F(ParametersTest, IdsMayHaveSlashesAndTheOneAtTheirFrontIsNotWritten) {
-  using Ids = std::set<std::string>;
   for (const std::string id : {"drill", "left/drill", "left/sweep_guard/open"}) {
     node_.setParam("workpieces/" + id + "/open", true);
     node_.setParam("interaction/stiffness_of/" + id, 1e5);
     const Parameters loaded = loadParameters(node_);
-    EXPECT_EQ(loaded.open_ids, (Ids{id, "/" + id}));
+    EXPECT_EQ(loaded.sheets.by_id, (std::map<std::string, bool>{{id, true}, {"/" + id, true}}));
     EXPECT_EQ(loaded.interaction.stiffness_of, (std::map<std::string, double>{{id, 1e5}, {"/" + id, 1e5}}));
     node_.setParam("workpieces/" + id + "/open", 1);
-    EXPECT_TRUE(has(refusal(node_), "workpieces/" + id + "/open is 1, but must be a group of groups"));
+    EXPECT_TRUE(has(refusal(node_), "workpieces/" + id + "/open is 1, but must be true or false"));
     node_.deleteParam("workpieces");
     node_.deleteParam("interaction/stiffness_of");
   }
+}
+
+TEST_F(ParametersTest, AWorkpieceHasItsOwnRulesThenThoseOfAllOthersThenTheCommonOne) {
+  node_.setParam("timing/mesh_timeout", 1.0);
+  XmlRpc::XmlRpcValue rules;  // a name of ROS has no *
+  rules["liver"]["timeout"] = 0.2;
+  rules["*"]["timeout"] = 3;
+  rules["*"]["padding"] = 0.001;
+  rules["curtain"]["open"] = true;
+  node_.setParam("workpieces", rules);
+  const Parameters loaded = loadParameters(node_);
+  EXPECT_EQ(loaded.limits.meshTimeout("liver"), std::chrono::milliseconds(200));
+  EXPECT_EQ(loaded.limits.meshTimeout("curtain"), std::chrono::seconds(3));
+  EXPECT_EQ(*loaded.paddings.of("liver"), 0.001) << "each kind of rule by itself";
+  EXPECT_EQ(loaded.sheets.of("liver"), nullptr);
+  EXPECT_EQ(loaded.ruled_ids, (std::set<std::string>{"curtain", "liver"}));
+  node_.deleteParam("workpieces");
+  EXPECT_EQ(loadParameters(node_).limits.meshTimeout("curtain"), std::chrono::seconds(1));
+  node_.deleteParam("timing/mesh_timeout");
+}
+
+TEST_F(ParametersTest, ARuleOutOfRangeOrOfAnotherNameIsRefusedWithWhatIsWanted) {
+  const auto refused = [&](const std::string& entry, const XmlRpc::XmlRpcValue& value, const std::string& wanted) {
+    node_.setParam("workpieces/liver/" + entry, value);
+    EXPECT_TRUE(has(refusal(node_), "workpieces/liver/" + entry + " is ")) << refusal(node_);
+    EXPECT_TRUE(has(refusal(node_), wanted)) << refusal(node_);
+    node_.deleteParam("workpieces");
+  };
+  refused("timeout", 0.0, "but must be [s] a number from 0.01 to inf");
+  refused("timeout", "0.2", "'0.2' is a text: YAML wants 0.2, without quotes");
+  refused("padding", -0.001, "but must be [m] a number from 0 to 1");
+  refused("paddng", 0.001,
+          "but must be a group of groups of {open: true or false, padding: [m] a number from 0 to 1, ");
 }
 
 TEST_F(ParametersTest, GroupsWithoutAValueAreRefused) {

@@ -164,7 +164,7 @@ class ServicesTest : public ::testing::Test {
   sweep_guard_core::WorkpieceStore workpieces_{[this](const auto& workpieces) { monitor_.setWorkpieces(workpieces); }};
   sweep_guard_core::WarningMonitor monitor_{parameters_.initial().limits};
   WarningPublisher warnings_{node_, parameters_, monitor_};
-  ScenePublisher scene_{node_, parameters_, monitor_};
+  ScenePublisher scene_{node_, parameters_, monitor_, workpieces_};
   TouchesPublisher touches_{node_};
   sweep_guard_core::SweepStatistics statistics_{parameters_.initial().guard.cycle};
   Frames frames_{ros::NodeHandle(), parameters_.initial().max_message_size, [](const auto&, const auto&) {}};

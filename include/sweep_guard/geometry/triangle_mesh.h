@@ -40,6 +40,11 @@ class TriangleMesh {
   /// `rounded` comes after `is_sheet`.
   TriangleMesh(const std::vector<Eigen::Vector3d>&, std::vector<Triangle>, double) = delete;
 
+  /// Grows margin() by this: the surface counts as nearer by so much, whatever the tool. deform() keeps it.
+  /// @param padding  [m], >= 0; not checked
+  void pad(double padding) { padding_ = padding; }
+  double padding() const { return padding_; }  ///< [m]
+
   /// Replaces the positions of all vertices in one pass; rebuilds no structure. Exchanges buffers and allocates
   /// nothing, except for a spare buffer at the first call on a mesh with renumbered vertices. rounding() is then that of
   /// positions which were rounded to float32 before.
@@ -89,6 +94,8 @@ class TriangleMesh {
   /// Returns an upper bound on the distance [m] between a vertex and what is stored of it: what storing it as float32
   /// costs, after deform() what sending it as float32 has cost (1e-7 m at coordinates of 1 m).
   double rounding() const { return rounding_; }
+  /// Returns how far around its stored triangles the mesh may be, or is to be kept free: rounding() and padding() [m].
+  double margin() const { return rounding_ + padding_; }
 
  private:
   struct Topology {
@@ -108,6 +115,7 @@ class TriangleMesh {
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   double radius_ = 0.0;
   double rounding_ = 0.0;
+  double padding_ = 0.0;
 };
 
 }  // namespace sweep_guard_core

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sweep_guard/common/rules.h"
 #include "sweep_guard/common/warning_level.h"
 #include "sweep_guard/monitor/warning_inputs.h"
 
@@ -37,6 +38,13 @@ struct WarningLimits {
   Duration overload = std::chrono::milliseconds(20);
   WarningThresholds thresholds = {};
   Duration acknowledge_time = std::chrono::seconds(10);  ///< longest time that a warning stays acknowledged; >= 0
+  Rules<Duration> mesh_timeouts = {};                    ///< of some workpieces, in place of `mesh_timeout`
+
+  /// Returns the age above which a workpiece is stale.
+  Duration meshTimeout(const std::string& id) const {
+    const Duration* const rule = mesh_timeouts.of(id);
+    return rule == nullptr ? mesh_timeout : *rule;
+  }
 
   /// Returns whether something is still shown that has ended so long ago.
   bool hold(Duration since_end) const { return since_end <= hold_time; }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sweep_guard/common/mutex.h"
@@ -103,7 +104,8 @@ class WarningMonitor {
 
   /// Reports that a good mesh came, or that the workpiece was removed. Clears the refusals of messages of this id that
   /// were received no later.
-  void meshAccepted(const std::string& id, SteadyTime received);
+  /// @returns whether a mesh was refused until then
+  bool meshAccepted(const std::string& id, SteadyTime received);
 
   /// Reports that vertices were refused. The warning is not clear until verticesAccepted() or meshAccepted().
   void verticesRefused(const std::string& id, const std::string& message, SteadyTime received);
@@ -111,6 +113,12 @@ class WarningMonitor {
   /// Reports accepted vertices. Clears refusals of vertices of this id that were received no later; a refused mesh
   /// stays until meshAccepted().
   void verticesAccepted(const std::string& id, SteadyTime received);
+
+  /// Reports that a workpiece is still as it was: its age begins anew. Does not call on_fault.
+  void confirmed(const std::string& id, const Timestamps& timestamps);
+
+  /// Returns when the workpieces that age were last heard of, ascending by id.
+  std::vector<std::pair<std::string, Timestamps>> heard() const;
 
   /// Reports a message on a mesh topic that belongs to no workpiece: its id is unknown, or it cannot be read. The
   /// warning is not clear until 1 s after the last of these.

@@ -12,6 +12,7 @@ namespace sweep_guard_ros {
 namespace {
 
 constexpr std::size_t kStampedHeader = 12;  // sequence number and stamp [bytes]
+constexpr std::size_t kNoPositions = 8;     // the rest of MeshVertices without any [bytes]
 
 std::optional<std::string> nextText(Wire& message) {
   std::uint32_t length = 0;
@@ -24,8 +25,8 @@ std::optional<std::string> nextText(Wire& message) {
   return text;
 }
 
-// DeformableMesh and MeshVertices begin with the header and the id.
-std::optional<std::string> workpieceIn(Wire message) {
+// DeformableMesh and MeshVertices begin with the header and the id. The rest is left in the message.
+std::optional<std::string> nextWorkpiece(Wire& message) {
   if (message.size < kStampedHeader) return std::nullopt;
   message.bytes += kStampedHeader;
   message.size -= kStampedHeader;
@@ -56,8 +57,10 @@ std::string messageKey(const RecordedTopic& topic, const std::string& publisher,
       return topic.recorded + ' ' + publisher;
     case KeptMessages::kEachMesh:
     case KeptMessages::kEachVertices: {
-      const auto id = workpieceIn(message);
-      return id ? meshKey(*id, topic.kept == KeptMessages::kEachVertices ? "\nvertices" : "") : std::string();
+      const bool has_vertices = topic.kept == KeptMessages::kEachVertices;
+      const auto id = nextWorkpiece(message);
+      if (!id || (has_vertices && message.size == kNoPositions)) return {};
+      return meshKey(*id, has_vertices ? "\nvertices" : "");
     }
     case KeptMessages::kEachTransform:
       try {

@@ -14,7 +14,7 @@ GuardState::GuardState(const ros::NodeHandle& node, const ros::NodeHandle& priva
           parameters.initial().limits, [this] { on_fault_(); }, [this] { return queue.waitingSince(); },
           [this] { return supervisor.hung(); }),
       warnings(private_node, parameters, monitor),
-      scene(private_node, parameters, monitor),
+      scene(private_node, parameters, monitor, workpieces),
       touches(private_node),
       frames(node, parameters.initial().max_message_size,
              [this](const std::string& parent, const std::string& child) {

@@ -22,6 +22,7 @@ using sweep_guard_core::TriangleMesh;
 using sweep_guard_core::UpdateOutcome;
 
 constexpr size_t kMinCapacity = 256U << 20U;   // [bytes]
+constexpr size_t kMaxSendersReason = 500;      // of a sender [bytes]
 constexpr size_t kOverhead = 512;              // of a job and its message, beside the serialized bytes
 constexpr size_t kMaxEarly = 1024;             // meshes
 constexpr std::uint32_t kMeshesQueued = 1000;  // each message may be of another workpiece; taken from it at once
@@ -37,6 +38,10 @@ sweep_guard_core::Time latestStamp() { return now().stamp + kFutureTolerance; }
 
 bool removes(const sweep_guard::DeformableMesh& msg) { return msg.mesh.vertices.empty() && msg.mesh.triangles.empty(); }
 
+void requireGiven(const sweep_guard::DeformableMesh& msg) {
+  if (!msg.refused.empty()) throw InvalidInput("its sender says: " + printable(msg.refused, kMaxSendersReason));
+}
+
 // All workpieces may arrive at once: latched meshes are not sent again.
 size_t capacity(const Parameters& parameters) { return std::max(kMinCapacity, 4 * parameters.max_message_size); }
 
@@ -51,7 +56,8 @@ MeshInput::MeshInput(const ros::NodeHandle& node, const Parameters& parameters,
                      sweep_guard_core::WorkpieceStore& workpieces, sweep_guard_core::WarningMonitor& monitor)
     : mesh_ids_(parameters.mesh_ids),
       other_tools_(parameters.other_tools),
-      open_ids_(parameters.open_ids),
+      sheets_(parameters.sheets),
+      paddings_(parameters.paddings),
       max_triangles_(parameters.max_triangles),
       max_waiting_bytes_(capacity(parameters)),
       workpieces_(workpieces),
@@ -153,6 +159,7 @@ void MeshInput::unread(const std::string& reason, InputRecord& record) {
 void MeshInput::convert(const sweep_guard::DeformableMesh::ConstPtr& msg, SteadyTime received) {
   forgetEarly(msg->id);
   try {
+    requireGiven(*msg);
     auto mesh_M = std::make_shared<std::optional<TriangleMesh>>();
     if (!removes(*msg)) {
       checkHeader(msg->header);
@@ -167,8 +174,11 @@ void MeshInput::convert(const sweep_guard::DeformableMesh::ConstPtr& msg, Steady
 }
 
 TriangleMesh MeshInput::meshOf(const sweep_guard::DeformableMesh& msg) const {
-  const bool is_sheet = msg.open != 0 || open_ids_.count(msg.id) != 0;
-  return fromMsg(msg.mesh, max_triangles_, is_sheet);
+  const bool* const is_sheet = sheets_.of(msg.id);
+  TriangleMesh mesh_M = fromMsg(msg.mesh, max_triangles_, msg.open != 0 || (is_sheet != nullptr && *is_sheet));
+  const double* const padding = paddings_.of(msg.id);
+  mesh_M.pad(padding == nullptr ? 0.0 : *padding);
+  return mesh_M;
 }
 
 // The clock of a simulation may be silent for a while, and a latched mesh is not sent again.
@@ -199,6 +209,7 @@ void MeshInput::storeEarly(const std::string& id) {
   if (!early) return;
   const auto& [msg, received] = *early;
   try {
+    requireGiven(*msg);
     checkHeader(msg->header);
     store(*msg, received, meshOf(*msg));
   } catch (const std::exception& error) {  // invalid, or out of memory
@@ -218,14 +229,15 @@ std::optional<MeshInput::EarlyMesh> MeshInput::dueOf(const std::string& id) {
 void MeshInput::store(const sweep_guard::DeformableMesh& msg, SteadyTime received, std::optional<TriangleMesh> mesh_M) {
   try {
     const sweep_guard_core::Time stamp = fromMsg(msg.header.stamp);
+    bool removed = true;
     if (!mesh_M) {
-      if (!workpieces_.remove(msg.id, std::min(stamp, latestStamp())))
-        ROS_WARN_THROTTLE(1.0, "no workpiece '%s' to remove", msg.id.c_str());
+      removed = workpieces_.remove(msg.id, std::min(stamp, latestStamp()));
     } else if (workpieces_.set({msg.id, msg.revision, stamp, received, msg.header.frame_id, std::move(*mesh_M)},
                                latestStamp()) == UpdateOutcome::kIgnored) {
       return;
     }
-    monitor_.meshAccepted(msg.id, received);
+    const bool was_refused = monitor_.meshAccepted(msg.id, received);
+    if (!removed && !was_refused) ROS_WARN_THROTTLE(1.0, "no workpiece '%s' to remove", msg.id.c_str());
   } catch (const std::exception& error) {  // invalid, or out of memory
     monitor_.meshRefused(msg.id, refusal(msg.id, error, mesh_record_), received);
   }
@@ -238,12 +250,14 @@ void MeshInput::store(const sweep_guard::MeshVertices& msg, SteadyTime received)
     const UpdateOutcome outcome = workpieces_.deform(
         {msg.id, msg.revision, fromMsg(msg.header.stamp), received, msg.header.frame_id, msg.positions}, latestStamp());
     if (outcome == UpdateOutcome::kStored) monitor_.verticesAccepted(msg.id, received);
+    if (outcome == UpdateOutcome::kConfirmed) monitor_.confirmed(msg.id, {fromMsg(msg.header.stamp), received});
     if (outcome == UpdateOutcome::kUnknownWorkpiece) {
       unread("vertices of '" + msg.id + "' came before their mesh: publish DeformableMesh latched", vertices_record_);
     }
   } catch (const std::exception& error) {  // invalid, or out of memory
     const bool known = workpieces_.contains(msg.id) || workpieces_.attached(msg.id);
-    if (!known) return unread("vertices of '" + msg.id + "': " + error.what(), vertices_record_);
+    const bool lasts = known && !msg.positions.empty();  // until the next positions
+    if (!lasts) return unread("vertices of '" + msg.id + "': " + error.what(), vertices_record_);
     monitor_.verticesRefused(msg.id, refusal(msg.id, error, vertices_record_), received);
   }
 }
@@ -263,6 +277,7 @@ void MeshInput::drop(const sweep_guard::DeformableMesh& msg, SteadyTime received
 
 void MeshInput::drop(const sweep_guard::MeshVertices& msg, SteadyTime received) {
   ++dropped_;
+  if (msg.positions.empty()) return;
   if (!workpieces_.contains(msg.id)) return unread("vertices of '" + msg.id + "' were dropped", vertices_record_);
   monitor_.updateDropped(msg.id, received);
 }

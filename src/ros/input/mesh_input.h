@@ -78,7 +78,8 @@ class MeshInput {
 
   const std::set<std::string> mesh_ids_;
   const std::vector<std::string> other_tools_;
-  const std::set<std::string> open_ids_;
+  const sweep_guard_core::Rules<bool> sheets_;
+  const sweep_guard_core::Rules<double> paddings_;
   const size_t max_triangles_;
   const size_t max_waiting_bytes_;  // in each of three places
   sweep_guard_core::WorkpieceStore& workpieces_;

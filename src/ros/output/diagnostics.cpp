@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <fstream>
@@ -52,6 +53,32 @@ void reportRefusal(const Frames& frames, const std::string& user, diagnostic_upd
   const std::string refusal = frames.refusalFor(user);
   const bool is_told = status.message.find(refusal) != std::string::npos;
   if (!is_told) status.mergeSummary(DiagnosticStatus::ERROR, refusal);
+}
+
+// Each with the rule that holds for it.
+void reportAges(const std::vector<std::pair<std::string, sweep_guard_core::Timestamps>>& heard,
+                const sweep_guard_core::WarningLimits& limits, diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const sweep_guard_core::Instant at = now();
+  for (const auto& [id, timestamps] : heard) {
+    const sweep_guard_core::Duration timeout = limits.meshTimeout(id);
+    if (sweep_guard_core::stale(timestamps, at, timeout))
+      status.mergeSummary(DiagnosticStatus::ERROR, "'" + id + "' is stale");
+    const std::string rule = timeout == sweep_guard_core::Duration::max()
+                                 ? std::string("never stale")
+                                 : "stale from " + sweep_guard_core::inSeconds(timeout) + " on";
+    status.addf("age of '" + id + "'", "%.3f s, %s", toSeconds(sweep_guard_core::age(timestamps, at)), rule.c_str());
+  }
+}
+
+// An id with a slash at its front has none in YAML's key.
+void reportUnusedRules(const Parameters& parameters, const sweep_guard_core::Workpieces& workpieces,
+                       diagnostic_updater::DiagnosticStatusWrapper& status) {
+  for (const std::string& id : parameters.ruled_ids) {
+    const auto is_ruled = [&](const auto& workpiece) { return workpiece->id == id || workpiece->id == "/" + id; };
+    const bool came = std::any_of(workpieces.begin(), workpieces.end(), is_ruled) ||
+                      parameters.attached.count(id) + parameters.attached.count("/" + id) > 0;
+    if (!came) status.mergeSummary(DiagnosticStatus::WARN, "no workpiece '" + id + "' so far (workpieces)");
+  }
 }
 
 }  // namespace
@@ -179,19 +206,14 @@ void Diagnostics::input(Status& status, const Input& input, Counts& previous) co
 
 void Diagnostics::workpieces(Status& status) const {
   const sweep_guard_core::Workpieces workpieces = state_.workpieces.snapshot();
-  const sweep_guard_core::Instant at = now();
   const auto parameters = state_.parameters.get();
-  const sweep_guard_core::Duration timeout = parameters->limits.mesh_timeout;
   status.summary(DiagnosticStatus::OK, std::to_string(workpieces.size()) + " workpieces");
   if (workpieces.empty()) status.summary(DiagnosticStatus::STALE, "no workpiece yet");
   for (const auto& workpiece : workpieces) {
-    const sweep_guard_core::Timestamps seen{workpiece->stamp, workpiece->received};
-    if (sweep_guard_core::stale(seen, at, timeout)) {
-      status.mergeSummary(DiagnosticStatus::ERROR, "'" + workpiece->id + "' is stale");
-    }
-    status.addf("'" + workpiece->id + "'", "revision %u, %zu triangles in '%s', %.3f s old", workpiece->revision,
-                workpiece->mesh_M.triangles().size(), workpiece->frame.c_str(),
-                toSeconds(sweep_guard_core::age(seen, at)));
+    status.addf("'" + workpiece->id + "'", "revision %u, %zu triangles in '%s'", workpiece->revision,
+                workpiece->mesh_M.triangles().size(), workpiece->frame.c_str());
+    if (workpiece->mesh_M.padding() > 0.0)
+      status.addf("padding of '" + workpiece->id + "' [m]", "%.6g", workpiece->mesh_M.padding());
     if (workpiece->mesh_M.rounding() >= kWorthSaying)
       status.mergeSummary(DiagnosticStatus::WARN, roundingText(*workpiece));
     if (workpiece->mesh_M.closed() && workpiece->mesh_M.enclosure().partsOverlap())
@@ -204,6 +226,8 @@ void Diagnostics::workpieces(Status& status) const {
     sweep_guard_core::appendOpenSurface(workpiece->id, workpiece->mesh_M.openEdges(), open);
     status.add("inside of '" + workpiece->id + "'", open);
   }
+  reportAges(state_.monitor.heard(), parameters->limits, status);
+  reportUnusedRules(*parameters, workpieces, status);
   for (const std::string& id : parameters->attached) status.add("'" + id + "'", "attached to the tool");
   const auto distances = state_.distances.get();
   const std::string doubt = sweep_guard_core::doubtfulSizes(workpieces, distances);

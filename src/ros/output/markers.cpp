@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <boost/algorithm/string/replace.hpp>
+#include <chrono>
 
+#include "common/heartbeat.h"
 #include "ros/output/marker_shapes.h"
+#include "sweep_guard/common/printable.h"
 #include "sweep_guard/geometry/tool.h"
 #include "sweep_guard/ros/conversions.h"
 
@@ -14,6 +17,8 @@ using sweep_guard_core::WarningLevel;
 using visualization_msgs::Marker;
 
 constexpr int kGhosts = 10;
+constexpr char kWorkpieces[] = "workpieces";
+constexpr auto kRenewal = std::chrono::milliseconds(250);  // half of what a marker lives
 
 // Returns the largest distance that a corner of the tool's bounding box moves between two poses.
 double largestMotion(const sweep_guard_core::Tool& tool, const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
@@ -125,15 +130,42 @@ void addPredictedTrail(visualization_msgs::MarkerArray& array, const MarkerScene
   array.markers.push_back(std::move(strip));
 }
 
-constexpr double kLineWidth = 0.001;  // [m]
+constexpr double kLineWidth = 0.001;   // [m]
+constexpr double kTextHeight = 0.025;  // [m]
 
 // Writes the level and each reason in its own line.
 void addText(visualization_msgs::MarkerArray& array, Marker text, const sweep_guard_core::Warning& warning) {
-  text.scale.z = 0.025;
+  text.scale.z = kTextHeight;
   text.color = levelColor(warning.level, 0.95);
   text.text = boost::algorithm::replace_first_copy(warning.text, ": ", "\n");
   boost::algorithm::replace_all(text.text, "; ", "\n");
   array.markers.push_back(std::move(text));
+}
+
+void addSurface(Marker& list, const sweep_guard_core::TriangleMesh& mesh_M) {
+  list.color = color(0.84, 0.80, 0.74, 0.5);
+  list.points.reserve(3 * mesh_M.triangles().size());
+  for (const sweep_guard_core::Triangle& triangle : mesh_M.triangles()) {
+    for (const std::uint32_t corner : triangle) list.points.push_back(point(mesh_M.vertex(corner)));
+  }
+}
+
+// @param fits  otherwise a text says that it is not drawn
+Marker workpieceMarker(const sweep_guard_core::Workpiece& workpiece, int id, sweep_guard_core::Time stamp, bool fits) {
+  const int type = fits ? Marker::TRIANGLE_LIST : Marker::TEXT_VIEW_FACING;
+  Marker drawn = marker(kWorkpieces, id, type, workpiece.frame, stamp);
+  drawn.frame_locked = 1U;  // follows its frame until it is drawn anew
+  sweep_guard_core::beat();
+  if (fits) {
+    addSurface(drawn, workpiece.mesh_M);
+    return drawn;
+  }
+  drawn.pose.position = point(workpiece.mesh_M.bounds_M().center());
+  drawn.scale.z = kTextHeight;
+  drawn.color = color(0.84, 0.80, 0.74, 0.95);
+  drawn.text = "'" + sweep_guard_core::printable(workpiece.id) + "' is not drawn:\nmore than " +
+               std::to_string(kMaxMarkedTriangles) + " triangles in all";
+  return drawn;
 }
 
 // Returns a point behind the rear end.
@@ -190,16 +222,17 @@ void addAllowedTriangles(visualization_msgs::MarkerArray& array, const sweep_gua
 
 const std::vector<std::string>& markerNamespaces() {
   static const std::vector<std::string> namespaces = {
-      "tool",           "swept_volume",     "contact_triangles",   "allowed_triangles",
-      "predicted_tool", "predicted_volume", "predicted_triangles", "trajectory",
-      "warning_text"};
+      kWorkpieces,         "tool",           "swept_volume",     "contact_triangles",
+      "allowed_triangles", "predicted_tool", "predicted_volume", "predicted_triangles",
+      "trajectory",        "warning_text"};
   return namespaces;
 }
 
 Markers::Markers(std::string fixed_frame) : fixed_frame_(std::move(fixed_frame)) {}
 
-visualization_msgs::MarkerArray Markers::draw(const MarkerScene& scene) {
+visualization_msgs::MarkerArray Markers::draw(const MarkerScene& scene, sweep_guard_core::SteadyTime now) {
   visualization_msgs::MarkerArray array;
+  addWorkpieces(array, scene, now);
   if (scene.newest) addMeasured(array, scene);
   if (scene.prediction) addPredicted(array, scene);
   const auto hidden = [&](const Marker& drawn) { return scene.namespaces.count(drawn.ns) == 0; };
@@ -215,6 +248,27 @@ bool isOfWarning(const MarkerScene& scene, const sweep_guard_core::WarningLimits
   return std::any_of(objects.begin(), objects.end(), [&](const sweep_guard_core::SweptObject& object) {
     return object.workpiece->id == scene.warning.mesh_id && object.result.unintendedContact();
   });
+}
+
+void Markers::addWorkpieces(visualization_msgs::MarkerArray& array, const MarkerScene& scene,
+                            sweep_guard_core::SteadyTime now) {
+  eraseRemoved(scene.workpieces, workpieces_);
+  size_t triangles = 0;
+  for (const auto& workpiece : scene.workpieces) {
+    if (workpiece->of_other_tool) continue;
+    const size_t with_it = triangles + workpiece->mesh_M.triangles().size();
+    const bool fits = with_it <= kMaxMarkedTriangles;
+    if (fits) triangles = with_it;
+    const auto [known, is_new] = workpieces_.try_emplace(workpiece->id, DrawnWorkpiece{next_workpiece_, {}, {}});
+    if (is_new) ++next_workpiece_;
+    DrawnWorkpiece& drawn = known->second;
+    if (!is_new && drawn.received == workpiece->received && now - drawn.at < kRenewal) continue;
+    drawn.received = workpiece->received;
+    drawn.at = now;
+    const sweep_guard_core::Time stamp =
+        scene.newest ? std::max(scene.newest->end, workpiece->stamp) : workpiece->stamp;
+    array.markers.push_back(workpieceMarker(*workpiece, drawn.id, stamp, fits));
+  }
 }
 
 void Markers::addMeasured(visualization_msgs::MarkerArray& array, const MarkerScene& scene) const {
@@ -246,6 +300,7 @@ void Markers::addPredicted(visualization_msgs::MarkerArray& array, const MarkerS
 void Markers::deleteOld(visualization_msgs::MarkerArray& array) {
   std::set<Key> now_shown;
   for (const Marker& drawn : array.markers) now_shown.emplace(drawn.ns, drawn.id);
+  for (const auto& [id, drawn] : workpieces_) now_shown.emplace(kWorkpieces, drawn.id);
   for (const auto& [ns, id] : shown_) {
     if (now_shown.count({ns, id}) != 0) continue;
     Marker old = marker(ns, id, Marker::CUBE, fixed_frame_, {});

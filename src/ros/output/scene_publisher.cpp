@@ -1,5 +1,6 @@
 #include "ros/output/scene_publisher.h"
 
+#include <chrono>
 #include <utility>
 
 #include "ros/output/view_messages.h"
@@ -8,9 +9,11 @@
 namespace sweep_guard_ros {
 
 ScenePublisher::ScenePublisher(ros::NodeHandle private_node, const LiveParameters& parameters,
-                               const sweep_guard_core::WarningMonitor& monitor)
+                               const sweep_guard_core::WarningMonitor& monitor,
+                               const sweep_guard_core::WorkpieceStore& workpieces)
     : parameters_(parameters),
       monitor_(monitor),
+      workpieces_(workpieces),
       markers_(parameters.initial().fixed_frame),
       marker_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("markers", 1)),
       view_publisher_(private_node.advertise<sweep_guard::View>("view", 1)),
@@ -52,7 +55,10 @@ void ScenePublisher::setTool(const std::vector<sweep_guard_core::Tool>& bodies) 
 }
 
 void ScenePublisher::publishMarkers() {
-  if (marker_publisher_.getNumSubscribers() > 0) marker_publisher_.publish(markers_.draw(currentScene()));
+  if (marker_publisher_.getNumSubscribers() == 0) return;
+  MarkerScene scene = currentScene();
+  if (scene.namespaces.count("workpieces") != 0) scene.workpieces = workpieces_.snapshot();
+  marker_publisher_.publish(markers_.draw(scene, std::chrono::steady_clock::now()));
 }
 
 void ScenePublisher::publishView() const {

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "common/guarded_by.h"
+#include "guard/workpiece_store.h"
 #include "ros/output/markers.h"
 #include "ros/parameters/live_parameters.h"
 #include "sweep_guard/monitor/warning_monitor.h"
@@ -16,8 +17,10 @@ namespace sweep_guard_ros {
 /// thread reports results, another one publishes.
 class ScenePublisher {
  public:
+  /// All must outlive this.
+  /// @param workpieces  used from publishMarkers() on
   ScenePublisher(ros::NodeHandle private_node, const LiveParameters& parameters,
-                 const sweep_guard_core::WarningMonitor& monitor);
+                 const sweep_guard_core::WarningMonitor& monitor, const sweep_guard_core::WorkpieceStore& workpieces);
 
   void passed(const sweep_guard_core::PoseWithFrames& pose);
   void swept(const sweep_guard_core::PoseWithFrames& pose, std::shared_ptr<const sweep_guard_core::SweepReport> report);
@@ -34,6 +37,7 @@ class ScenePublisher {
 
   const LiveParameters& parameters_;
   const sweep_guard_core::WarningMonitor& monitor_;
+  const sweep_guard_core::WorkpieceStore& workpieces_;
   Markers markers_;
   ros::Publisher marker_publisher_;
   ros::Publisher view_publisher_;

@@ -238,24 +238,6 @@ std::map<std::string, std::string> ParameterReader::textsByName(const std::strin
   return texts;
 }
 
-std::map<std::string, bool> ParameterReader::flagsOf(const std::string& key, const std::string& flag,
-                                                     const std::string& effect) {
-  const std::string wanted = "a group of groups " + grouped({flag}, {"true or false"}) + ", or {}";
-  std::map<std::string, bool> flags;
-  std::vector<std::string> shown_entries;
-  for (const auto& [path, entry] : entries(key, wanted)) {
-    const size_t slash = path.size() - std::min(path.size(), flag.size() + 1);
-    const bool is_flag = slash > 0 && path.compare(slash, std::string::npos, "/" + flag) == 0 &&
-                         entry.getType() == XmlRpc::XmlRpcValue::TypeBoolean;
-    if (!is_flag) refuse(std::string(key).append("/").append(path), entry, wanted);
-    const std::string name = path.substr(0, slash);
-    flags[name] = static_cast<bool>(entry);
-    shown_entries.push_back(name + ": " + grouped({flag}, {flags[name] ? "true" : "false"}));
-  }
-  describe({key, braced(shown_entries), std::string("{}"), 0.0, 0.0, {}, wanted, effect});
-  return flags;
-}
-
 std::string ParameterReader::searchText(const std::string& name) {
   std::string key;
   XmlRpc::XmlRpcValue value;

@@ -94,6 +94,29 @@ sweep_guard_core::InteractionOptions readInteraction(ParameterReader& read) {
   return options;
 }
 
+template <typename Value>
+void addRule(const std::string& id, const Value& value, sweep_guard_core::Rules<Value>& rules) {
+  rules.by_id.insert({{id, value}, {"/" + id, value}});  // YAML's key of an id with a slash at its front has none
+}
+
+void readWorkpieces(ParameterReader& read, Parameters& parameters) {
+  const auto rules = read.groupsByName(
+      "workpieces",
+      {{"open"}, {"padding", ParameterRange{0.0, 1.0, "m"}}, {"timeout", ParameterRange{0.01, kInfinity, "s"}}},
+      "Rules for some workpieces by their id, and by '*' for all others, as in {curtain: {open: true}, '*': {timeout: "
+      "0.2}}. open: the surface has no inside, so the guard does not test for it and does not report INSIDE_UNTESTED. "
+      "padding: the workpiece counts as nearer by this, for sweeps, predictions and planes; the depth of an intention "
+      "counts from there. timeout: in place of timing/mesh_timeout.");
+  for (const auto& [id, rule] : rules) {
+    if (id != "*") parameters.ruled_ids.insert(id);
+    if (const auto open = rule.find("open"); open != rule.end()) addRule(id, open->second != 0.0, parameters.sheets);
+    if (const auto padding = rule.find("padding"); padding != rule.end())
+      addRule(id, padding->second, parameters.paddings);
+    if (const auto timeout = rule.find("timeout"); timeout != rule.end())
+      addRule(id, toDuration(timeout->second), parameters.limits.mesh_timeouts);
+  }
+}
+
 sweep_guard_core::HorizonOptions readHorizon(ParameterReader& read, Duration pose_timeout) {
   const ParameterReader::Range any{kMinStep, kMaxHorizon, "s"};
   const double reflex = read.live().number("horizon/reflex", 0.1, {0.01, 1.0, "s"},
@@ -249,7 +272,10 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
   parameters.marker_rate = read.live().number("timing/marker_rate", 15.0, {0.1, 100.0, "Hz"},
                                               "~markers are published at most this often, and only to subscribers.");
   for (const std::string& name : markerNamespaces()) {
-    if (read.live().flag("markers/" + name, true, "Publishes the namespace " + name + " of ~markers."))
+    const std::string bound = name == "workpieces" ? " What is beyond " + std::to_string(kMaxMarkedTriangles) +
+                                                         " triangles in all is a text in its place."
+                                                   : "";
+    if (read.live().flag("markers/" + name, true, "Publishes the namespace " + name + " of ~markers." + bound))
       parameters.marker_namespaces.insert(name);
   }
   parameters.check_sweep_deadline = toDuration(
@@ -264,13 +290,7 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
                  "Workpieces that must be there: the warning is not CLEAR without each of them, and no other id is "
                  "listened to. []: all ids that come.");
   parameters.mesh_ids.insert(ids.begin(), ids.end());
-  for (const auto& [id, is_open] :
-       read.flagsOf("workpieces", "open",
-                    "What is known of some workpieces by their id, as in {curtain: {open: true}}. open: the surface "
-                    "has no inside, so "
-                    "the guard does not test for it and does not report INSIDE_UNTESTED.")) {
-    if (is_open) parameters.open_ids.insert({id, "/" + id});  // YAML's key of an id with a slash at its front has none
-  }
+  readWorkpieces(read, parameters);
   parameters.other_tools = read.nodes(
       "other_tools",
       "Nodes of the guards of other tools, as in [/left/sweep_guard]: their links are workpieces, too, which "

@@ -55,11 +55,13 @@ struct Parameters {
   double marker_rate;                       ///< [Hz]
   std::set<std::string> marker_namespaces;  ///< published ones
   sweep_guard_core::Duration check_sweep_deadline;
-  int realtime_priority;                 ///< of the guard's thread; 0: none
-  std::set<std::string> open_ids;        ///< workpieces whose surfaces have no inside
-  std::set<std::string> mesh_ids;        ///< workpieces that must be there; empty: all that come
-  std::vector<std::string> other_tools;  ///< nodes of their guards
-  bool allow_several_publishers;         ///< of tool poses
+  int realtime_priority;                     ///< of the guard's thread; 0: none
+  sweep_guard_core::Rules<bool> sheets;      ///< workpieces whose surfaces have no inside
+  sweep_guard_core::Rules<double> paddings;  ///< of workpieces [m]
+  std::set<std::string> ruled_ids;           ///< ids for which there is a rule of their own
+  std::set<std::string> mesh_ids;            ///< workpieces that must be there; empty: all that come
+  std::vector<std::string> other_tools;      ///< nodes of their guards
+  bool allow_several_publishers;             ///< of tool poses
   size_t max_triangles;
   size_t max_message_size;               ///< [bytes]
   size_t max_memory;                     ///< of the node's process [MiB]; 0: no limit

@@ -6,6 +6,7 @@
 
 #include "ros/output/start_failure.h"
 #include "ros/parameters/parameters.h"
+#include "ros/threads/supervisor.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_ros {

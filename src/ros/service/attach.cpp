@@ -46,6 +46,7 @@ Workpiece movedBy(const Eigen::Isometry3d& X_MM, const Workpiece& held, const Po
   std::vector<Eigen::Vector3d> vertices_M;
   for (size_t i = 0; i < held.mesh_M.vertexCount(); ++i) vertices_M.push_back(X_MM * held.mesh_M.vertex(i));
   TriangleMesh moved_M(vertices_M, held.mesh_M.triangles(), held.mesh_M.isSheet(), held.mesh_M.rounding());
+  moved_M.pad(held.mesh_M.padding());
   return {held.id, held.revision, pose.stamp, pose.received, held.frame, std::move(moved_M)};
 }
 

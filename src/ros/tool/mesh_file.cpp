@@ -33,6 +33,7 @@ using sweep_guard_core::InvalidInput;
 constexpr auto kReaderTimeout = std::chrono::seconds(30);  // three times its limit of processor time
 constexpr size_t kMaxAnswer = wireSize({kMaxMeshVertices, kMaxMeshTriangles});
 constexpr size_t kMaxReason = 200;
+constexpr char kFormats[] = "STL, OBJ, DAE, PLY or glTF";
 
 class Descriptor {
  public:
@@ -54,8 +55,9 @@ std::string formatOf(const path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  if (extension == ".stl" || extension == ".obj" || extension == ".dae") return extension.substr(1);
-  throw InvalidInput(file.string() + ": unknown mesh format; give an STL, OBJ or DAE file");
+  const std::array<const char*, 6> known = {".stl", ".obj", ".dae", ".ply", ".gltf", ".glb"};
+  if (std::find(known.begin(), known.end(), extension) != known.end()) return extension.substr(1);
+  throw InvalidInput(file.string() + ": unknown mesh format; give an " + kFormats + " file");
 }
 
 // O_NONBLOCK: opening a pipe must not wait.
@@ -67,7 +69,7 @@ Descriptor openMesh(const path& file, bool follow_link) {
     throw InvalidInput(file.string() + ": cannot be opened: " + std::strerror(errno));
   }
   if (!S_ISREG(status.st_mode))
-    throw InvalidInput(file.string() + ": not a regular file; give an STL, OBJ or DAE file");
+    throw InvalidInput(file.string() + ": not a regular file; give an " + kFormats + " file");
   if (static_cast<std::uint64_t>(status.st_size) > kMaxMeshFile) {
     throw InvalidInput(file.string() + ": larger than 32 MiB; give a coarser mesh");
   }

@@ -10,7 +10,6 @@
 
 #include <Eigen/Dense>
 #include <array>
-#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <iostream>
@@ -22,8 +21,11 @@
 #include <utility>
 #include <vector>
 
+#include "ros/tool/gltf_facets.h"
 #include "ros/tool/mesh_text.h"
 #include "ros/tool/mesh_wire.h"
+#include "ros/tool/ply_facets.h"
+#include "ros/tool/singular_transform.h"
 #include "ros/tool/stl_facets.h"
 
 namespace {
@@ -35,7 +37,6 @@ using Triangle = std::array<std::uint32_t, 3>;
 constexpr rlim_t kMemory = rlim_t{1} << 30U;  // [byte]
 constexpr rlim_t kProcessorTime = 10;         // [s]
 constexpr int kMaxNodeDepth = 100;
-constexpr double kMinVolume = 1e-6;  // of a transformed cube, relative to the product of its edges
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kSanitized = true;  // reserves terabytes of addresses, and opens files to report
@@ -138,16 +139,17 @@ void addMesh(const aiMesh& mesh, const aiMatrix4x4& X, FileSurface& surface) {
   for (unsigned i = 0; i < mesh.mNumFaces; ++i) addFace(mesh.mFaces[i], vertex, surface);
 }
 
-bool isSingular(const aiMatrix4x4& X) {
+Eigen::Matrix3d linearOf(const aiMatrix4x4& X) {
   Eigen::Matrix3d linear;
   linear << X.a1, X.a2, X.a3, X.b1, X.b2, X.b3, X.c1, X.c2, X.c3;
-  return !(std::abs(linear.determinant()) > kMinVolume * linear.colwise().norm().prod());
+  return linear;
 }
 
 void addNode(const aiScene& scene, const aiNode& node, const aiMatrix4x4& X_parent, int depth, FileSurface& surface) {
   if (depth > kMaxNodeDepth) throw std::runtime_error("nodes are nested too deeply");
   const aiMatrix4x4 X = X_parent * node.mTransformation;
-  if (node.mNumMeshes > 0 && isSingular(X)) throw std::runtime_error("a transform is singular");
+  if (node.mNumMeshes > 0 && sweep_guard_ros::isSingular(linearOf(X)))
+    throw std::runtime_error("a transform is singular");
   for (unsigned i = 0; i < node.mNumMeshes; ++i) addMesh(*scene.mMeshes[node.mMeshes[i]], X, surface);
   for (unsigned i = 0; i < node.mNumChildren; ++i) addNode(scene, *node.mChildren[i], X, depth + 1, surface);
 }
@@ -193,10 +195,12 @@ std::string plain(std::string text) {
   return text;
 }
 
-FileSurface readStl(const std::string& bytes) {
+template <typename Facets>
+FileSurface surfaceOf(const Facets& facets) {
   FileSurface surface;
-  for (const sweep_guard_ros::StlFacet& facet : sweep_guard_ros::readStlFacets(bytes)) {
+  for (const auto& facet : facets) {
     std::vector<std::uint32_t> corners;
+    corners.reserve(facet.size());
     for (const auto& [x, y, z] : facet) corners.push_back(addVertex({x, y, z}, surface));
     addPolygon(std::move(corners), surface);
   }
@@ -227,7 +231,10 @@ FileSurface read(const std::string& bytes, const std::string& format) {
   if (bytes.compare(0, 19, "version https://git") == 0) {
     throw std::runtime_error("file is a git-lfs pointer, not the mesh: run git lfs pull");
   }
-  return format == "stl" ? readStl(bytes) : readWithAssimp(bytes, format);
+  if (format == "stl") return surfaceOf(sweep_guard_ros::readStlFacets(bytes));
+  if (format == "ply") return surfaceOf(sweep_guard_ros::readPlyFacets(bytes));
+  if (format == "gltf" || format == "glb") return surfaceOf(sweep_guard_ros::readGltfFacets(bytes));
+  return readWithAssimp(bytes, format);
 }
 
 template <typename Value>
@@ -247,7 +254,7 @@ void write(const FileSurface& surface) {
 
 int main(int argc, char** argv) {
   if (argc != 2) {
-    std::cerr << "usage: mesh_reader stl|obj|dae <FILE\n";
+    std::cerr << "usage: mesh_reader stl|obj|dae|ply|gltf|glb <FILE\n";
     return 2;
   }
   try {

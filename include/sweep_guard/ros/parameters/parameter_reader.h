@@ -39,6 +39,12 @@ struct ParameterRange {
   const char* note = "";  ///< of a narrowed range: words for the error text that name the other parameter; not null
 };
 
+/// A number or a flag that a group may have.
+struct GroupEntry {
+  std::string name;
+  std::optional<ParameterRange> range = {};  ///< empty: a flag
+};
+
 /// Reads the private parameters of a node. Each function returns the value that is set, or the fallback if none is, and
 /// throws sweep_guard_core::InvalidInput with key, value and range if the value has another type, is NaN or is out of
 /// range. (roscpp silently returns the fallback if the type is wrong.) Both ends of a range are allowed. `effect`
@@ -94,8 +100,11 @@ class ParameterReader {
                                         const std::optional<Range>& range = {});
   /// Reads a group of texts, none of them empty, by their names in the group; empty if not set.
   std::map<std::string, std::string> textsByName(const std::string& key, const std::string& effect = "");
-  /// Reads a group of groups, each of which has one flag: by the names of the inner groups; empty if not set.
-  std::map<std::string, bool> flagsOf(const std::string& key, const std::string& flag, const std::string& effect = "");
+  /// Reads a group of groups, each of which has some of these entries and nothing else: by the names of the inner groups,
+  /// then by those of the entries, flags as 0 and 1; empty if not set.
+  std::map<std::string, std::map<std::string, double>> groupsByName(const std::string& key,
+                                                                    const std::vector<GroupEntry>& entries,
+                                                                    const std::string& effect = "");
   /// Reads a list of groups, each of which has these texts, none of them empty, and nothing else; [] if not set. Returns the
   /// texts in the order of `names`.
   std::vector<std::vector<std::string>> groups(const std::string& key, const std::vector<std::string>& names,

@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+"""A table from a scene and a liver that deforms at 60 Hz, each with its own timeout: who of the senders dies is noticed."""
+import threading
+import unittest
+from xmlrpc.client import ServerProxy
+
+import numpy
+import rosgraph
+import rospy
+import rostest
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import PoseStamped
+from sweep_guard import MeshPublisher
+from sweep_guard.msg import MeshVertices, Warning
+
+PATIENCE = 30.0  # [s]
+LIVER = numpy.array([[0.5, 0.0, 0.2], [0.6, 0.0, 0.2], [0.5, 0.1, 0.2], [0.5, 0.0, 0.3]])
+FACES = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+SLACK = 0.05  # [s]
+
+
+class TableAndLiverTest(unittest.TestCase):
+    def setUp(self):
+        self.changed = threading.Condition()
+        self.warnings = []
+        self.newest = {}  # stamps of MeshVertices by id
+        for subscriber in (rospy.Subscriber('/sweep_guard/warning', Warning, self.hear, tcp_nodelay=True),
+                           rospy.Subscriber('/mesh_vertices', MeshVertices, self.hear_vertices, tcp_nodelay=True)):
+            self.addCleanup(subscriber.unregister)
+        self.tool = rospy.Publisher('/tool_pose', PoseStamped, queue_size=10)
+        self.liver = MeshPublisher('liver', 'world')
+        self.deforms = True
+        for timer in (rospy.Timer(rospy.Duration(1.0 / 100), self.pose), rospy.Timer(rospy.Duration(1.0 / 60), self.deform)):
+            self.addCleanup(timer.shutdown)
+
+    def hear(self, warning):
+        with self.changed:
+            self.warnings.append(warning)
+            self.changed.notify_all()
+
+    def hear_vertices(self, vertices):
+        self.newest[vertices.id] = vertices.header.stamp
+
+    def pose(self, _):
+        pose = PoseStamped()
+        pose.header.frame_id = 'world'
+        pose.header.stamp = rospy.Time.now()
+        pose.pose.position.z = 2.0
+        pose.pose.orientation.x = 1.0
+        self.tool.publish(pose)
+
+    def deform(self, _):
+        if self.liver.revision == 0:
+            self.liver.publish(LIVER, FACES)
+        if self.deforms:
+            self.liver.deform(LIVER)
+
+    def await_warning(self, fits):
+        """The next warning that fits."""
+        with self.changed:
+            self.warnings.clear()
+            end = rospy.Time.now() + rospy.Duration(PATIENCE)
+            while rospy.Time.now() < end:
+                for warning in self.warnings:
+                    if fits(warning):
+                        return warning
+                self.warnings.clear()
+                self.changed.wait(1.0)
+        self.fail('no such warning')
+
+    def await_stale(self, name, timeout):
+        warning = self.await_warning(lambda one: one.level == Warning.UNKNOWN)
+        self.assertIn(f"workpiece '{name}' is 0.", warning.text)
+        self.assertLess((warning.header.stamp - self.newest[name]).to_sec(), timeout + SLACK)
+
+    def test_the_diagnostics_have_the_age_and_the_rule_of_each_and_name_a_rule_without_a_workpiece(self):
+        self.await_warning(lambda one: one.level == Warning.CLEAR)
+        while True:
+            array = rospy.wait_for_message('/diagnostics', DiagnosticArray, PATIENCE)
+            for line in array.status:
+                if line.name.endswith('sweep_guard: workpieces'):
+                    values = {value.key: value.value for value in line.values}
+                    self.assertIn("no workpiece 'ghost' so far (workpieces)", line.message)
+                    self.assertIn('stale from 0.20 s on', values["age of 'liver'"])
+                    self.assertIn('stale from 0.40 s on', values["age of 'table'"])
+                    return
+
+    def test_the_end_of_each_sender_is_unknown_in_time_and_the_table_does_not_age_before(self):
+        for _ in range(3):
+            self.deforms = True
+            self.await_warning(lambda one: one.level == Warning.CLEAR)
+            later = rospy.Time.now() + rospy.Duration(1.5)  # longer than the timeouts
+            self.assertNotIn('table', self.await_warning(lambda one: 'table' in one.text or one.header.stamp > later).text)
+            self.await_warning(lambda one: one.level == Warning.CLEAR)
+            self.deforms = False
+            self.await_stale('liver', 0.2)
+        self.deforms = True
+        self.await_warning(lambda one: one.level == Warning.CLEAR)
+        ServerProxy(rosgraph.Master(rospy.get_name()).lookupNode('/scene_input')).shutdown(rospy.get_name(), '')
+        self.await_stale('table', 0.4)
+
+
+if __name__ == '__main__':
+    rospy.init_node('table_and_liver_test')
+    rostest.rosrun('sweep_guard', 'table_and_liver_test', TableAndLiverTest)
