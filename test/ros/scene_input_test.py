@@ -30,8 +30,17 @@ TETRAHEDRON = numpy.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0
 FACES = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
 
 
+class Connected(rospy.SubscribeListener):
+    def __init__(self):
+        super().__init__()
+        self.event = threading.Event()
+
+    def peer_subscribe(self, *_):
+        self.event.set()
+
+
 class Workpieces:
-    """What a guard knows of the workpieces from `mesh` and `mesh_vertices`."""
+    """What a guard knows of the workpieces from `mesh` and `mesh_vertices`, and what it says that it knows."""
 
     def __init__(self):
         self._lock = threading.Condition()
@@ -39,8 +48,10 @@ class Workpieces:
         self._positions = {}
         self.confirmed = {}  # times by id
         self.deformed = {}  # numbers by id
+        self.known_to_guard = set()
         rospy.Subscriber('/mesh', DeformableMesh, self._take_mesh, tcp_nodelay=True)
         rospy.Subscriber('/mesh_vertices', MeshVertices, self._take_vertices, tcp_nodelay=True)
+        rospy.Subscriber('/diagnostics', DiagnosticArray, self._take_diagnostics)
 
     def _take_mesh(self, mesh):
         with self._lock:
@@ -59,6 +70,17 @@ class Workpieces:
             else:
                 self.confirmed[vertices.id] = time.monotonic()
             self._lock.notify_all()
+
+    def _take_diagnostics(self, array):
+        for line in array.status:
+            if line.name.endswith('sweep_guard: workpieces'):
+                with self._lock:
+                    self.known_to_guard = {value.key.strip("'") for value in line.values if value.value.startswith('revision ')}
+                    self._lock.notify_all()
+
+    def await_message(self):
+        with self._lock:
+            self._lock.wait(PATIENCE)
 
     def mesh(self, name):
         return self._meshes.get(name)
@@ -190,17 +212,19 @@ class SceneTest(unittest.TestCase):
         cls.workpieces = Workpieces()
 
     def publisher(self, topic, kind):
-        publisher = rospy.Publisher(topic, kind, queue_size=1000, latch=True)  # who asks for the definition connects, too
+        listener = Connected()
+        publisher = rospy.Publisher(topic, kind, listener, queue_size=1000, latch=True)  # who asks for the definition connects, too
         self.addCleanup(publisher.unregister)
-        self.assertTrue(self.eventually(lambda: publisher.get_num_connections() > 0))
+        self.assertTrue(listener.event.wait(PATIENCE), topic)
         return publisher
 
     def eventually(self, happens):
+        """Looks again with each message; diagnostics come once a second."""
         end = time.monotonic() + PATIENCE
         while not happens():
             if time.monotonic() > end:
                 return False
-            time.sleep(0.01)
+            self.workpieces.await_message()
         return True
 
     def move_group(self):
@@ -212,7 +236,6 @@ class SceneTest(unittest.TestCase):
         """Publishes until positions come without a mesh."""
         def is_deformed():
             publish()
-            time.sleep(0.02)
             return self.workpieces.deformed.get(name, 0) > 0
         self.assertTrue(self.eventually(is_deformed))
 
@@ -419,7 +442,7 @@ class SceneInputTest(SceneTest):
                 self.assertTrue(self.workpieces.wait(lambda: self.difference(move_group.oracle) is None), (number, self.difference(move_group.oracle)))
         self.assertEqual(number, 1000)
         ids = set(move_group.oracle.objects())
-        self.assertTrue(self.eventually(lambda: {name for name in self.known_to_guard() if len(name) == 1} == ids))
+        self.assertTrue(self.eventually(lambda: {name for name in self.workpieces.known_to_guard if len(name) == 1} == ids))
 
     def difference(self, oracle):
         held = oracle.objects()
@@ -434,14 +457,6 @@ class SceneInputTest(SceneTest):
             if not numpy.allclose(known, numpy.array(vertices), atol=1e-5):
                 return name, known, vertices
         return None
-
-    def known_to_guard(self):
-        try:
-            array = rospy.wait_for_message('/diagnostics', DiagnosticArray, PATIENCE)
-        except rospy.ROSException:
-            return set()
-        lines = [line for line in array.status if line.name.endswith('sweep_guard: workpieces')]
-        return {value.key.strip("'") for line in lines for value in line.values if value.value.startswith('revision ')}
 
 
 if __name__ == '__main__':
