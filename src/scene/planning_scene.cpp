@@ -36,6 +36,17 @@ std::string misfit(const CollisionObject& object) {
   return object.X_FO ? "it has more poses than shapes" : "it has not one pose for each shape";
 }
 
+void reserve(const std::vector<TriangleSurface>& parts, TriangleSurface& whole) {
+  size_t vertices = 0;
+  size_t triangles = 0;
+  for (const TriangleSurface& part : parts) {
+    vertices += part.vertices.size();
+    triangles += part.triangles.size();
+  }
+  whole.vertices.reserve(vertices);
+  whole.triangles.reserve(triangles);
+}
+
 CollisionShapes joined(std::array<CollisionShapes, 3> kinds) {
   CollisionShapes all;
   for (CollisionShapes& kind : kinds) {
@@ -58,6 +69,7 @@ PlanningScene::Body PlanningScene::bodyOf(CollisionObject object) {
 SceneObject PlanningScene::placed(const std::string& id, const Body& body) {
   SceneObject object{id, body.frame, body.stamp, {}};
   auto& [vertices, triangles] = object.surface_M;
+  reserve(body.shapes.surfaces_S, object.surface_M);
   for (size_t i = 0; i < body.shapes.X_OS.size(); ++i) {
     const Eigen::Isometry3d X_FS = body.X_FO * body.shapes.X_OS[i];
     const TriangleSurface& surface_S = body.shapes.surfaces_S[i];

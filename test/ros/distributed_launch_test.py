@@ -15,21 +15,23 @@ class DistributedLaunchTest(unittest.TestCase):
     def setUpClass(cls):
         os.environ['ROS_MASTER_URI'] = 'http://localhost:11311'  # which nothing is asked of
         cls.config = ROSLaunchConfig()
-        arguments = ['left_host:=192.0.2.1', 'right_host:=192.0.2.2', 'left_mesh_ids:=[liver]', 'user:=operator']
+        arguments = ['left_host:=192.0.2.1', 'right_host:=192.0.2.2', 'left_mesh_ids:=[liver]', 'user:=operator',
+                     'scene:={}']
         XmlLoader().load(sys.argv[1], cls.config, argv=arguments, verbose=False)
         cls.config.assign_machines()
 
     def parameter(self, name):
         return self.config.params[name].value
 
-    def test_each_guard_is_on_its_host_and_the_merger_is_here(self):
+    def test_each_guard_is_on_its_host_and_the_rest_is_here(self):
         machines = {node.namespace + node.name: node.machine for node in self.config.nodes}
-        self.assertEqual(set(machines), {'/left/sweep_guard', '/right/sweep_guard', '/warning_merger'})
+        self.assertEqual(set(machines), {'/left/sweep_guard', '/right/sweep_guard', '/scene_input', '/warning_merger'})
         for namespace, address in HOSTS.items():
             machine = machines[namespace + 'sweep_guard']
             self.assertEqual((machine.address, machine.user), (address, 'operator'))
             self.assertTrue(machine.env_loader)
-        self.assertEqual(machines['/warning_merger'].address, 'localhost')
+        for node in ('/scene_input', '/warning_merger'):
+            self.assertEqual(machines[node].address, 'localhost')
 
     def test_the_merger_hears_the_guards_that_are_started(self):
         guards = [node.namespace + node.name for node in self.config.nodes if node.type == 'sweep_guard_node']
@@ -41,7 +43,7 @@ class DistributedLaunchTest(unittest.TestCase):
 
     def test_both_hear_the_same_workpieces(self):
         for node in self.config.nodes:
-            if node.type == 'sweep_guard_node':
+            if node.type in ('sweep_guard_node', 'scene_input'):
                 self.assertIn(['mesh', '/mesh'], [list(pair) for pair in node.remap_args])
 
 

@@ -7,8 +7,10 @@ import sys
 import threading
 import time
 import unittest
+from xmlrpc.client import ServerProxy
 
 import numpy
+import rosgraph
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
@@ -180,6 +182,9 @@ class MoveGroup:
 
     def __init__(self, test):
         self.oracle = planning_scene_oracle.Oracle(awaits_full_scene=False)
+        self.asked = threading.Event()
+        self.may_answer = threading.Event()
+        self.may_answer.set()
         self._test = test
         self._service = rospy.Service('/get_planning_scene', foreign_messages.moveit.GetPlanningScene, self._answer)
         self._publisher = test.publisher(SCENE_TOPIC, foreign_messages.moveit.PlanningScene)
@@ -188,6 +193,8 @@ class MoveGroup:
         scene = full_scene({})
         scene['objects'] = [dict(object_of(name), frame=thing.frame, pose=thing.pose, meshes=[one for one, _ in thing.shapes],
                                  mesh_poses=[where for _, where in thing.shapes]) for name, thing in self.oracle.world.items()]
+        self.asked.set()
+        self.may_answer.wait(PATIENCE)
         return foreign_messages.moveit.GetPlanningSceneResponse(scene_message(scene))
 
     def step(self, step):
@@ -201,9 +208,22 @@ class MoveGroup:
             self.oracle = after
             self._publisher.publish(scene_message(step))
 
+    def publish_diff(self, step):
+        """Publishes an object whatever it builds on."""
+        self._publisher.publish(scene_message({'type': 'scene', 'is_diff': True, 'is_state_diff': True, 'names_joints': False,
+                                               'attached': [], 'objects': [step]}))
+
     def end(self):
+        self.may_answer.set()
         self._service.shutdown()
         self._publisher.unregister()
+
+
+def dropped_by_scene_input(topic):
+    """How many messages roscpp has dropped, whose queue holds 1000."""
+    node = ServerProxy(rosgraph.Master('/test').lookupNode('/scene_input'))
+    subscriptions = node.getBusStats('/test')[2][1]
+    return sum(connection[3] for name, connections in subscriptions if name == topic for connection in connections)
 
 
 class SceneTest(unittest.TestCase):
@@ -213,7 +233,7 @@ class SceneTest(unittest.TestCase):
 
     def publisher(self, topic, kind):
         listener = Connected()
-        publisher = rospy.Publisher(topic, kind, listener, queue_size=1000, latch=True)  # who asks for the definition connects, too
+        publisher = rospy.Publisher(topic, kind, listener, queue_size=0, latch=True)  # who asks for the definition connects, too
         self.addCleanup(publisher.unregister)
         self.assertTrue(listener.event.wait(PATIENCE), topic)
         return publisher
@@ -422,6 +442,23 @@ class SceneInputTest(SceneTest):
         move_group.oracle.apply(full_scene({'a': (0.2, 0.2, 0.2)}))
         self.await_bounds('a', (-0.1, -0.1, -0.1), (0.1, 0.1, 0.1))
         self.await_gone('topic ' + SCENE_TOPIC)
+
+    def test_steps_that_are_dropped_while_it_waits_for_an_answer_are_asked_for(self):
+        move_group = self.move_group()
+        move_group.step(full_scene({'a': (0.2, 0.2, 0.2)}))
+        self.await_there('a')
+        move_group.asked.clear()
+        move_group.may_answer.clear()
+        move_group.publish_diff(dict(object_of('b'), operation='MOVE'))
+        self.assertTrue(move_group.asked.wait(PATIENCE))
+        move_group.step({'type': 'object', 'object': object_of('lost', (0.2, 0.2, 0.2))})
+        for _ in range(1100):
+            move_group.publish_diff(object_of('a', (0.2, 0.2, 0.2)))
+        end = time.monotonic() + PATIENCE
+        while dropped_by_scene_input(SCENE_TOPIC) == 0:
+            self.assertLess(time.monotonic(), end)
+        move_group.may_answer.set()
+        self.await_there('lost')
 
     def test_what_the_robot_holds_is_refused_unless_the_guard_attaches_it(self):
         move_group = self.move_group()

@@ -20,6 +20,14 @@ struct Wire {
   size_t size;
 };
 
+/// Returns the number that begins at an address of any alignment.
+template <typename Number>
+Number numberAt(const std::uint8_t* bytes) {
+  Number number;
+  std::memcpy(&number, bytes, sizeof number);
+  return number;
+}
+
 /// Walks over the bytes of a message as its generated serializer walks over the fields, but reads the lengths alone. The
 /// fields that the serializer passes give the types; their values are never used, and nothing is allocated. Fields of a
 /// fixed size are only added up: the sum is compared with the bytes before the next length is read, and at the end.
@@ -81,11 +89,11 @@ class WireStream {
   // Reads how many elements follow.
   // @param smallest  size of an element [bytes]; 0 counts as 1, because such an element still takes memory
   size_t length(size_t smallest) {
-    std::uint32_t count = 0;
-    if (passed_ + sizeof count > wire_.size) {
-      refuse("message is cut off: it takes at least ", passed_ + sizeof count, " bytes and holds ", wire_.size);
+    if (passed_ + sizeof(std::uint32_t) > wire_.size) {
+      refuse("message is cut off: it takes at least ", passed_ + sizeof(std::uint32_t), " bytes and holds ",
+             wire_.size);
     }
-    std::memcpy(&count, wire_.bytes + passed_, sizeof count);
+    const auto count = numberAt<std::uint32_t>(wire_.bytes + passed_);
     passed_ += sizeof count;
     const size_t left = wire_.size - passed_;
     if (count > left / std::max<size_t>(smallest, 1)) {

@@ -117,6 +117,13 @@ void shareHeaps() {
 #endif
 }
 
+void keepFreedMemory() {
+#ifdef M_MMAP_THRESHOLD  // glibc, which refuses more than 32 MiB
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  mallopt(M_TRIM_THRESHOLD, 32 << 20);
+#endif
+}
+
 void limitMemory(size_t max_memory) {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   if (max_memory == 0) return;

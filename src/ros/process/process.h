@@ -40,6 +40,10 @@ void setIdle();
 /// Before the first thread.
 void shareHeaps();
 
+/// Keeps what is freed, up to 32 MiB, for the next message: to take memory from the system anew lasts longer than to read a
+/// large message. Before the first thread.
+void keepFreedMemory();
+
 /// Limits the address space of the process; what does not fit throws std::bad_alloc. Does nothing in builds with a
 /// sanitizer, which reserves terabytes.
 /// @param max_memory  [MiB]; 0: no limit

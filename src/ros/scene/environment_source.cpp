@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "ros/connection/message_drops.h"
 #include "ros/connection/publisher_header.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
@@ -20,8 +21,8 @@ using sweep_guard_core::InvalidInput;
 using sweep_guard_core::printable;
 using sweep_guard_core::SceneUpdate;
 
-constexpr size_t kMaxMessage = 96U << 20U;  // [bytes], as of a mesh
-constexpr std::uint32_t kMessagesQueued = 100;
+constexpr size_t kMaxMessage = 96U << 20U;       // [bytes], as of a mesh
+constexpr std::uint32_t kMessagesQueued = 1000;  // each may be of another workpiece
 constexpr int kTicksPerLook = 10;
 const std::string kTopicId = "topic ";          // before the name, so that no workpiece has this id
 constexpr std::uint32_t kStateAndObjects = 30;  // of moveit_msgs/PlanningSceneComponents: no octomap
@@ -71,7 +72,7 @@ EnvironmentSource::EnvironmentSource(const ros::NodeHandle& node, const Environm
       call_(call),
       apply_(std::move(apply)),
       node_(node),
-      subscriber_(subscribeRaw(thread_.on(node), topic_.topic, kMessagesQueued, kMaxMessage,
+      subscriber_(subscribeRaw(thread_.on(node), topic_.topic, kMessagesQueued,
                                [this](const RawMessage& message) { receive(message); })) {}
 
 void EnvironmentSource::start(Supervisor& supervisor) {
@@ -126,8 +127,8 @@ void EnvironmentSource::receive(const RawMessage& message) {
       open(*message.header);
       connection_ = message.header;
     }
-    if (message.bytes.empty()) throw InvalidInput("a message exceeds 96 MiB");
-    read({message.bytes.data(), message.bytes.size()}, fromMsg(message.received));
+    if (message.bytes.size > kMaxMessage) throw InvalidInput("a message exceeds 96 MiB");
+    read(message.bytes, now().stamp);
   });
   if (is_read) return;
   has_lost_ = true;
@@ -210,12 +211,24 @@ void EnvironmentSource::checkTopic() {
     apply_(reader_->expire(now().stamp));
   }
   if (ticks_++ % kTicksPerLook != 0) return;
+  checkDrops();
   if (!reader_) {
     const std::string type = publishedTypes()[topic_.topic];
     if (type.empty()) return refuse("nobody has published it yet");
     begin(type);
   }
   if (needs_full_scene_) requestFullScene();
+}
+
+void EnvironmentSource::checkDrops() {
+  const auto drops = messageDrops(call_, topic_.topic);
+  if (!drops) return;
+  const int before = std::exchange(drops_, *drops);
+  if (*drops <= before || !reader_) return;
+  restart();
+  if (reader_->isComplete()) return;
+  has_lost_ = true;
+  throw InvalidInput("messages come faster than they can be read, and some were dropped");
 }
 
 // Messages that come meanwhile wait, and are read after the answer.

@@ -48,6 +48,7 @@ class EnvironmentSource {
  private:
   void receive(const RawMessage& message);
   void checkTopic();
+  void checkDrops();
   void begin(const std::string& type);
   void open(const ros::M_string& header);
   void read(Wire bytes, sweep_guard_core::Time now);
@@ -69,6 +70,7 @@ class EnvironmentSource {
   bool needs_full_scene_ = false;
   bool has_lost_ = false;  // a message, and none since has made up for it
   int ticks_ = 0;
+  int drops_ = 0;                            // of the connections that there are
   Publishers publishers_;                    // at the last tick(), whose thread alone uses it
   std::atomic<bool> has_publisher_ = false;  // at the last tick()
   std::atomic<bool> restarts_ = false;       // a publisher has gone

@@ -21,21 +21,22 @@ using Kind = ValueType::Kind;
 
 constexpr size_t kMaxElements = 1'000'000;
 
-template <typename Number>
-Number numberAt(const std::uint8_t* bytes) {
-  Number number;
-  std::memcpy(&number, bytes, sizeof number);
-  return number;
-}
-
-void requireBytes(size_t size, Wire message, size_t at) {
-  if (size <= message.size - at) return;
+[[noreturn]] void refuseCutOff(size_t size, Wire message, size_t at) {
   throw InvalidInput("message is cut off: it takes at least " + std::to_string(at + size) + " bytes and holds " +
                      std::to_string(message.size) + " bytes");
 }
 
+void requireBytes(size_t size, Wire message, size_t at) {
+  if (size > message.size - at) refuseCutOff(size, message, at);
+}
+
+const ValueType& contentOf(const ValueType& record) {
+  return record.fields.size() == 1 ? *record.fields.front().type : record;
+}
+
 // Returns where a value ends. Every value takes a byte, so no more values are passed than the message has bytes.
-size_t endOf(const ValueType& type, Wire message, size_t at) {
+size_t endOf(const ValueType& value, Wire message, size_t at) {
+  const ValueType& type = contentOf(value);
   requireBytes(type.min_size, message, at);
   if (type.fixed) return at + type.min_size;
   for (const auto& field : type.fields) at = endOf(*field.type, message, at);
@@ -49,10 +50,6 @@ size_t endOf(const ValueType& type, Wire message, size_t at) {
   if (type.element->fixed) return at + count * type.element->min_size;
   for (; count > 0; --count) at = endOf(*type.element, message, at);
   return at;
-}
-
-const ValueType& contentOf(const ValueType& record) {
-  return record.fields.size() == 1 ? *record.fields.front().type : record;
 }
 
 bool isIndex(const ValueType& type) { return type.kind == Kind::kUnsigned && type.min_size == sizeof(std::uint32_t); }

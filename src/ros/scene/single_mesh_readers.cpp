@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <limits>
 
 #include "ros/scene/placed_message.h"
@@ -46,13 +45,14 @@ std::vector<Eigen::Vector3d> pointsIn(const MessageValue& cloud) {
   const bool fits = cloud["is_bigendian"].flag() == false && step >= last && row_step >= width * step &&
                     (height == 0 || row_step <= data.size / height);
   if (!fits) throw InvalidInput("the cloud is big-endian, or its sizes do not fit its data");
-  std::vector<Eigen::Vector3d> points;
-  points.reserve(width * height);
-  for (size_t i = 0; i < width * height; ++i) {
-    const std::uint8_t* const point = data.bytes + i / width * row_step + i % width * step;
-    std::array<float, 3> p{};
-    for (size_t axis = 0; axis < 3; ++axis) std::memcpy(&p[axis], point + offsets[axis], sizeof(float));
-    points.emplace_back(p[0], p[1], p[2]);
+  std::vector<Eigen::Vector3d> points(width * height);
+  auto p = points.begin();
+  for (size_t row = 0; row < height; ++row) {
+    for (size_t column = 0; column < width; ++column) {
+      const std::uint8_t* const point = data.bytes + row * row_step + column * step;
+      *p++ = {numberAt<float>(point + offsets[0]), numberAt<float>(point + offsets[1]),
+              numberAt<float>(point + offsets[2])};
+    }
   }
   return points;
 }

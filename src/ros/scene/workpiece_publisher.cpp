@@ -4,7 +4,9 @@
 #include <sweep_guard/MeshVertices.h>
 #include <tf2_eigen/tf2_eigen.h>
 
+#include <cstring>
 #include <utility>
+#include <vector>
 
 #include "sweep_guard/ros/conversions.h"
 
@@ -12,6 +14,7 @@ namespace sweep_guard_ros {
 namespace {
 
 using sweep_guard_core::SceneObject;
+using sweep_guard_core::Triangle;
 
 constexpr auto kMeshArrives = std::chrono::milliseconds(300);
 constexpr std::uint32_t kQueueLength = 2000;  // all workpieces may be published at once
@@ -26,9 +29,13 @@ Msg headed(const SceneObject& object, std::uint32_t revision, const ros::Time& s
   return message;
 }
 
+bool sameTriangles(const std::vector<Triangle>& a, const std::vector<Triangle>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Triangle)) == 0;
+}
+
 bool sameMesh(const SceneObject& a, const SceneObject& b) {
   return a.frame == b.frame && a.open == b.open && a.surface_M.vertices.size() == b.surface_M.vertices.size() &&
-         a.surface_M.triangles == b.surface_M.triangles;
+         sameTriangles(a.surface_M.triangles, b.surface_M.triangles);
 }
 
 }  // namespace
@@ -103,9 +110,10 @@ void WorkpiecePublisher::publishMesh(Published& published) {
 void WorkpiecePublisher::publishPositions(Published& published) {
   const SceneObject& object = *published.object;
   auto message = headed<sweep_guard::MeshVertices>(object, published.revision, toMsg(object.stamp));
-  message.positions.reserve(3 * object.surface_M.vertices.size());
+  message.positions.resize(3 * object.surface_M.vertices.size());
+  float* position = message.positions.data();
   for (const Eigen::Vector3d& vertex : object.surface_M.vertices) {
-    for (const double coordinate : vertex) message.positions.push_back(static_cast<float>(coordinate));
+    for (const double coordinate : vertex) *position++ = static_cast<float>(coordinate);
   }
   published.moves = true;
   vertices_.publish(message);
