@@ -222,7 +222,7 @@ class MoveGroup:
 def dropped_by_scene_input(topic):
     """How many messages roscpp has dropped, whose queue holds 1000."""
     node = ServerProxy(rosgraph.Master('/test').lookupNode('/scene_input'))
-    subscriptions = node.getBusStats('/test')[2][1]
+    subscriptions = node.getBusStats('/test')[1]
     return sum(connection[3] for name, connections in subscriptions if name == topic for connection in connections)
 
 

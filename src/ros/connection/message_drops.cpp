@@ -4,11 +4,12 @@
 
 namespace sweep_guard_ros {
 
+// roscpp writes the statistics where its answer should have status and text: those of publishers, of subscribers.
 std::optional<int> messageDrops(const XmlRpcCall& call, const std::string& topic) {
-  const auto answer = call.call(ownUri(), "getBusStats", {});
-  if (!answer || !answer->success) return std::nullopt;
+  const auto statistics = call.callUnchecked(ownUri(), "getBusStats", {});
+  if (!statistics) return std::nullopt;
   int drops = 0;
-  const XmlRpc::XmlRpcValue& subscriptions = answer->value[1];
+  const XmlRpc::XmlRpcValue& subscriptions = (*statistics)[1];
   for (int i = 0; i < subscriptions.size(); ++i) {
     const std::string& name = subscriptions[i][0];
     if (name != topic) continue;
