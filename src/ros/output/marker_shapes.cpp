@@ -1,6 +1,8 @@
 #include "ros/output/marker_shapes.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "common/heartbeat.h"
 #include "sweep_guard/ros/conversions.h"
@@ -16,17 +18,25 @@ constexpr double kLifetime = 0.5;  // [s]
 const Eigen::Vector3d kLight(0.48, 0.14, 0.866);  // direction to the light
 
 // rviz's own light leaves the visible side dark.
+// @param brightness  0 to 1
+std_msgs::ColorRGBA shaded(std_msgs::ColorRGBA color, double brightness) {
+  for (float* const component : {&color.r, &color.g, &color.b})
+    *component = std::min(1.0F, 1.2F * static_cast<float>(brightness) * *component);
+  return color;
+}
+
+Eigen::Vector3d normalOf(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r) {
+  return (q - p).cross(r - p).stableNormalized();
+}
+
 void addShaded(Marker& list, const sweep_guard_core::ConvexShape& shape_T, const Eigen::Matrix3d& R_WT) {
   const sweep_guard_core::TriangleMesh& mesh_T = shape_T.mesh_T();
   for (const auto& [a, b, c] : mesh_T.triangles()) {
     const Eigen::Vector3d p = mesh_T.vertex(a);
-    const Eigen::Vector3d normal = (mesh_T.vertex(b) - p).cross(mesh_T.vertex(c) - p).stableNormalized();
+    const Eigen::Vector3d normal = normalOf(p, mesh_T.vertex(b), mesh_T.vertex(c));
     const double outward = normal.dot(p - shape_T.moments_T().mean) < 0.0 ? -1.0 : 1.0;
-    const auto light = static_cast<float>(0.65 + 0.35 * outward * (R_WT * normal).dot(kLight));
-    std_msgs::ColorRGBA shaded = list.color;
-    for (float* const component : {&shaded.r, &shaded.g, &shaded.b})
-      *component = std::min(1.0F, 1.2F * light * *component);
-    list.colors.insert(list.colors.end(), 3, shaded);
+    const double brightness = 0.65 + 0.35 * outward * (R_WT * normal).dot(kLight);
+    list.colors.insert(list.colors.end(), 3, shaded(list.color, brightness));
     for (const std::uint32_t corner : {a, b, c}) list.points.push_back(point(mesh_T.vertex(corner)));
   }
 }
@@ -119,6 +129,18 @@ SurfaceMarker::SurfaceMarker(const std::string& ns, int index, const std::string
   edges_.scale.x = line_width;
 }
 
+// Triangles may have either winding.
+void addSurface(Marker& list, const sweep_guard_core::TriangleMesh& mesh_M) {
+  list.points.reserve(3 * mesh_M.triangles().size());
+  list.colors.reserve(mesh_M.triangles().size());
+  for (const auto& [a, b, c] : mesh_M.triangles()) {
+    const std::array corners = {mesh_M.vertex(a), mesh_M.vertex(b), mesh_M.vertex(c)};
+    for (const Eigen::Vector3d& corner : corners) list.points.push_back(point(corner));
+    const double facing = std::abs(normalOf(corners[0], corners[1], corners[2]).dot(kLight));
+    list.colors.push_back(shaded(list.color, 0.5 + 0.5 * facing));
+  }
+}
+
 void SurfaceMarker::paint(const std_msgs::ColorRGBA& faces, const std_msgs::ColorRGBA& edges) {
   faces_.color = faces;
   edges_.color = edges;
@@ -151,10 +173,11 @@ void SurfaceMarker::add(const sweep_guard_core::TriangleMesh& mesh_M, const std:
     const Eigen::Vector3d p = mesh_M.vertex(a);
     const Eigen::Vector3d q = mesh_M.vertex(b);
     const Eigen::Vector3d r = mesh_M.vertex(c);
-    const Eigen::Vector3d off = lift * (q - p).cross(r - p).stableNormalized();
+    const Eigen::Vector3d off = lift * normalOf(p, q, r);
     add({p + off, q + off, r + off});
     add({p - off, r - off, q - off});
   }
+  faces_.colors.resize(faces_.points.size() / 3, faces_.color);
 }
 
 void SurfaceMarker::moveInto(visualization_msgs::MarkerArray& array) {

@@ -38,6 +38,9 @@ visualization_msgs::Marker marker(const std::string& ns, int id, int type, const
 void addTool(visualization_msgs::MarkerArray& array, const visualization_msgs::Marker& tool,
              const std::vector<sweep_guard_core::Tool>& bodies, const std::vector<Eigen::Isometry3d>& X_WB);
 
+/// Adds the triangles of a workpiece to a list of triangles, shaded in its color.
+void addSurface(visualization_msgs::Marker& list, const sweep_guard_core::TriangleMesh& mesh_M);
+
 /// Returns the distance [m] between a workpiece and the triangles drawn on it: enough to see them, small for a small
 /// tool.
 double liftOff(const sweep_guard_core::Tool& tool);
@@ -53,7 +56,8 @@ class SurfaceMarker {
 
   void add(const sweep_guard_core::Polygon& polygon);
   void add(const sweep_guard_core::SweptVolume& volume_M);
-  /// Adds triangles of a workpiece on both sides of its surface: in the surface they would flicker.
+  /// Adds triangles of a workpiece on both sides of its surface: in the surface they would flicker. Each has the color of
+  /// paint(), to be called before: rviz shades what has one color in all, so that one side would be dark.
   /// @param lift  [m]
   void add(const sweep_guard_core::TriangleMesh& mesh_M, const std::vector<std::uint32_t>& triangles, double lift);
 

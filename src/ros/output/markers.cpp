@@ -142,14 +142,6 @@ void addText(visualization_msgs::MarkerArray& array, Marker text, const sweep_gu
   array.markers.push_back(std::move(text));
 }
 
-void addSurface(Marker& list, const sweep_guard_core::TriangleMesh& mesh_M) {
-  list.color = color(0.84, 0.80, 0.74, 0.5);
-  list.points.reserve(3 * mesh_M.triangles().size());
-  for (const sweep_guard_core::Triangle& triangle : mesh_M.triangles()) {
-    for (const std::uint32_t corner : triangle) list.points.push_back(point(mesh_M.vertex(corner)));
-  }
-}
-
 // @param fits  otherwise a text says that it is not drawn
 Marker workpieceMarker(const sweep_guard_core::Workpiece& workpiece, int id, sweep_guard_core::Time stamp, bool fits) {
   const int type = fits ? Marker::TRIANGLE_LIST : Marker::TEXT_VIEW_FACING;
@@ -157,6 +149,7 @@ Marker workpieceMarker(const sweep_guard_core::Workpiece& workpiece, int id, swe
   drawn.frame_locked = 1U;  // follows its frame until it is drawn anew
   sweep_guard_core::beat();
   if (fits) {
+    drawn.color = color(0.84, 0.80, 0.74, 1.0);
     addSurface(drawn, workpiece.mesh_M);
     return drawn;
   }
