@@ -14,10 +14,12 @@ import numpy
 import rosgraph
 import rospy
 import rostest
-from geometry_msgs.msg import PoseStamped
 from sweep_guard import MeshPublisher, NotTested, check_sweep, is_clear, wait_for_clear
 from sweep_guard.msg import DeformableMesh, MeshVertices, Warning
 from sweep_guard.srv import CheckSweep, CheckSweepResponse
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '..', 'ros'))
+from tool_poses import publish_tool_pose, tool_pose  # noqa: E402
 
 PATIENCE = 60.0  # [s] longer than any load delays an answer
 SOON = 0.3  # [s] until something has to be given up
@@ -25,16 +27,8 @@ TRIANGLE = numpy.array([[-0.1, -0.1, 0.0], [0.1, -0.1, 0.0], [0.0, 0.1, 0.0]])
 FACES = numpy.array([[0, 1, 2]])
 
 
-def pose(z):
-    stamped = PoseStamped()
-    stamped.header.frame_id = 'world'
-    stamped.pose.position.z = z
-    stamped.pose.orientation.x = 1.0
-    return stamped
-
-
 def check(*heights, **options):
-    return check_sweep([pose(z) for z in heights], deadline=PATIENCE, **options)
+    return check_sweep([tool_pose(z) for z in heights], deadline=PATIENCE, **options)
 
 
 def eventually(happens):
@@ -246,7 +240,7 @@ class CheckSweepTest(RunningGuardTest):
         self.addCleanup(answered.set)
         self.serve('stuck', lambda request: answered.wait() and CheckSweepResponse())
         with self.assertRaisesRegex(TimeoutError, f'/stuck/check_sweep gave no answer within {SOON} s'):
-            check_sweep([pose(0.5)], deadline=SOON, guard='stuck')
+            check_sweep([tool_pose(0.5)], deadline=SOON, guard='stuck')
 
     def test_a_process_that_is_frozen_is_given_up(self):
         with socket.create_server(('127.0.0.1', 0)) as frozen:
@@ -255,45 +249,45 @@ class CheckSweepTest(RunningGuardTest):
             master.registerService('/frozen/check_sweep', place, 'http://127.0.0.1:1')
             self.addCleanup(master.unregisterService, '/frozen/check_sweep', place)
             with self.assertRaisesRegex(TimeoutError, '/frozen/check_sweep gave no answer'):
-                check_sweep([pose(0.5)], deadline=SOON, guard='frozen')
+                check_sweep([tool_pose(0.5)], deadline=SOON, guard='frozen')
 
     def test_a_guard_that_is_not_there_is_given_up(self):
         with self.assertRaisesRegex(TimeoutError, '/nobody/check_sweep gave no answer.*: no node offers it'):
-            check_sweep([pose(0.5)], deadline=SOON, guard='nobody')
+            check_sweep([tool_pose(0.5)], deadline=SOON, guard='nobody')
 
     def test_a_guard_that_starts_meanwhile_answers(self):
         serving = threading.Timer(SOON, self.serve, ['late', lambda request: CheckSweepResponse(success=True)])
         serving.start()
         self.addCleanup(serving.join)
-        self.assertTrue(check_sweep([pose(0.5)], deadline=PATIENCE, guard='late').success)
+        self.assertTrue(check_sweep([tool_pose(0.5)], deadline=PATIENCE, guard='late').success)
 
     def test_a_guard_that_is_busy_is_asked_again(self):
         answers = iter([CheckSweepResponse(message='BUSY: 4 calls wait'), CheckSweepResponse(success=True)])
         self.serve('busy', lambda request: next(answers))
-        self.assertTrue(check_sweep([pose(0.5)], deadline=PATIENCE, guard='busy').success)
+        self.assertTrue(check_sweep([tool_pose(0.5)], deadline=PATIENCE, guard='busy').success)
 
     def test_a_guard_that_stays_busy_is_given_up(self):
         self.serve('busier', lambda request: CheckSweepResponse(message='BUSY: 4 calls wait'))
         with self.assertRaisesRegex(TimeoutError, 'BUSY: 4 calls wait'):
-            check_sweep([pose(0.5)], deadline=SOON, guard='busier')
+            check_sweep([tool_pose(0.5)], deadline=SOON, guard='busier')
 
     def test_a_roscore_that_is_frozen_is_given_up(self):
         with socket.create_server(('127.0.0.1', 0)) as frozen, \
                 mock.patch.dict('os.environ', ROS_MASTER_URI=f'http://127.0.0.1:{frozen.getsockname()[1]}'), \
                 self.assertRaisesRegex(TimeoutError, 'no roscore answers'):
-            check_sweep([pose(0.5)], deadline=SOON)
+            check_sweep([tool_pose(0.5)], deadline=SOON)
 
     def test_no_roscore_is_given_up(self):
         with mock.patch.dict('os.environ', ROS_MASTER_URI='http://127.0.0.1:1'), \
                 self.assertRaisesRegex(TimeoutError, 'no roscore answers at http://127.0.0.1:1'):
-            check_sweep([pose(0.5)], deadline=SOON)
+            check_sweep([tool_pose(0.5)], deadline=SOON)
 
     def test_an_error_of_the_server_is_an_error(self):
         def fail(request):
             raise rospy.ServiceException('out of order')
         self.serve('broken', fail)
         with self.assertRaisesRegex(rospy.ServiceException, 'out of order'):
-            check_sweep([pose(0.5)], deadline=PATIENCE, guard='broken')
+            check_sweep([tool_pose(0.5)], deadline=PATIENCE, guard='broken')
 
 
 class WaitForClearTest(RunningGuardTest):
@@ -302,24 +296,12 @@ class WaitForClearTest(RunningGuardTest):
         publisher.publish(Warning(**fields))
         self.addCleanup(publisher.unregister)
 
-    def publish_poses(self):
-        publisher = rospy.Publisher('tool_pose', PoseStamped, queue_size=10)
-
-        def publish(event):
-            stamped = pose(0.5)
-            stamped.header.stamp = rospy.Time.now()
-            publisher.publish(stamped)
-        timer = rospy.Timer(rospy.Duration(0.02), publish)
-        self.addCleanup(publisher.unregister)
-        self.addCleanup(timer.join)
-        self.addCleanup(timer.shutdown)
-
     def wait_for_unknown(self):
         self.assertTrue(eventually(lambda: rospy.wait_for_message('sweep_guard/warning', Warning).level == Warning.UNKNOWN))
 
     def test_returns_a_warning_that_is_clear(self):
         self.publish_triangle()
-        self.publish_poses()
+        publish_tool_pose(self, z=0.5, rate=50)
         warning = wait_for_clear(PATIENCE)
         self.assertEqual((warning.level, warning.clear), (Warning.CLEAR, True))
 

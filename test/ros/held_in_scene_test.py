@@ -4,9 +4,9 @@ import threading
 
 import rospy
 import rostest
-from geometry_msgs.msg import PoseStamped
 from scene_input_test import PATIENCE, SceneTest, full_scene, object_of
 from sweep_guard.msg import ToolShape, Warning
+from tool_poses import publish_tool_pose
 
 HELD = (0.05, 0.05, 0.05)
 
@@ -20,11 +20,10 @@ class HeldInSceneTest(SceneTest):
     def setUp(self):
         self.changed = threading.Condition()
         self.level = self.links = None
-        self.tool = rospy.Publisher('/tool_pose', PoseStamped, queue_size=10)
         for subscriber in (rospy.Subscriber('/sweep_guard/warning', Warning, self.hear_warning),
                            rospy.Subscriber('/sweep_guard/tool', ToolShape, self.hear_tool)):
             self.addCleanup(subscriber.unregister)
-        self.addCleanup(rospy.Timer(rospy.Duration(1.0 / 50), self.pose).shutdown)
+        publish_tool_pose(self, z=1.0, rate=50)
 
     def hear_warning(self, warning):
         with self.changed:
@@ -35,14 +34,6 @@ class HeldInSceneTest(SceneTest):
         with self.changed:
             self.links = tool.links
             self.changed.notify_all()
-
-    def pose(self, _):
-        pose = PoseStamped()
-        pose.header.frame_id = 'world'
-        pose.header.stamp = rospy.Time.now()
-        pose.pose.position.z = 1.0
-        pose.pose.orientation.w = 1.0
-        self.tool.publish(pose)
 
     def await_clear(self, holds):
         with self.changed:

@@ -275,7 +275,7 @@ class SceneTest(unittest.TestCase):
                 return False
             vertices = self.workpieces.vertices(name)
             return numpy.allclose(vertices.min(axis=0), low, atol=1e-5) and numpy.allclose(vertices.max(axis=0), high, atol=1e-5)
-        self.assertTrue(self.workpieces.wait(fits), self.workpieces.is_there(name) and self.workpieces.vertices(name))
+        self.assertTrue(self.workpieces.wait(fits), (name, self.workpieces.is_there(name) and self.workpieces.vertices(name)))
 
 
 class SceneInputTest(SceneTest):
@@ -290,9 +290,14 @@ class SceneInputTest(SceneTest):
         self.assertGreaterEqual(distances.min(), 0.5)
         self.assertLess(distances.max(), 0.51)
 
-    def test_a_file_has_the_scale_and_the_frame_of_the_scene(self):
-        self.assertEqual(self.await_there('block').header.frame_id, 'moving')
-        self.await_bounds('block', (0.0, 0.0, 0.0), (0.1, 0.1, 0.1))
+    def test_a_file_of_each_format_has_the_scale_and_the_place_of_the_scene_and_the_guard_knows_it(self):
+        files = {'block': ('moving', (0.0, 0.0, 0.0), (0.1, 0.1, 0.1)), 'ply': ('base', (0.0, 0.0, 0.0), (0.1, 0.2, 0.3)),
+                 'gltf': ('world', (0.0, 0.0, 1.0), (0.1, 0.2, 1.3)), 'obj': ('world', (0.0, 0.0, 0.0), (0.1, 0.4, 0.3)),
+                 'dae': ('world', (0.0, -0.3, 0.0), (0.1, 0.0, 0.2))}
+        for name, (frame, low, high) in files.items():
+            self.assertEqual(self.await_there(name).header.frame_id, frame)
+            self.await_bounds(name, low, high)
+        self.assertTrue(self.workpieces.wait(lambda: self.workpieces.known_to_guard.issuperset(files)), self.workpieces.known_to_guard)
 
     def test_what_rests_is_confirmed_all_the_time(self):
         self.await_there('table')

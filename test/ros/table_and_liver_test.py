@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
-"""A table from a scene and a liver that deforms at 60 Hz, each with its own timeout: who of the senders dies is noticed."""
+"""A table and bricks on a carriage from a scene, and a liver that deforms at 60 Hz, each with its own timeout: the guard follows the
+carriage in tf, and notices which of the senders dies."""
+import os
 import queue
+import sys
 import threading
 import unittest
 from xmlrpc.client import ServerProxy
@@ -10,14 +13,19 @@ import rosgraph
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
-from geometry_msgs.msg import PoseStamped
+from geometry_msgs.msg import TransformStamped
 from sweep_guard import MeshPublisher
 from sweep_guard.msg import MeshVertices, Warning
+from tool_poses import publish_tool_pose
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '..', 'soak'))
+from transforms import TFMessage  # noqa: E402
 
 PATIENCE = 30.0  # [s]
 LIVER = numpy.array([[0.5, 0.0, 0.2], [0.6, 0.0, 0.2], [0.5, 0.1, 0.2], [0.5, 0.0, 0.3]])
 FACES = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
 SLACK = 0.05  # [s]
+BETWEEN = -0.2  # [m] x of the carriage where the tool is between the bricks
 
 
 class TableAndLiverTest(unittest.TestCase):
@@ -28,10 +36,12 @@ class TableAndLiverTest(unittest.TestCase):
         for subscriber in (rospy.Subscriber('/sweep_guard/warning', Warning, self.hear, tcp_nodelay=True),
                            rospy.Subscriber('/mesh_vertices', MeshVertices, self.hear_vertices, tcp_nodelay=True)):
             self.addCleanup(subscriber.unregister)
-        self.tool = rospy.Publisher('/tool_pose', PoseStamped, queue_size=10)
+        publish_tool_pose(self, z=2.0, rate=100)
+        self.tf = rospy.Publisher('/tf', TFMessage, queue_size=10)
+        self.carriage = self.goal = BETWEEN
         self.liver = MeshPublisher('liver', 'world')
         self.deforms = True
-        for timer in (rospy.Timer(rospy.Duration(1.0 / 100), self.pose), rospy.Timer(rospy.Duration(1.0 / 60), self.deform)):
+        for timer in (rospy.Timer(rospy.Duration(1.0 / 100), self.move), rospy.Timer(rospy.Duration(1.0 / 60), self.deform)):
             self.addCleanup(timer.shutdown)
 
     def hear(self, warning):
@@ -42,13 +52,16 @@ class TableAndLiverTest(unittest.TestCase):
     def hear_vertices(self, vertices):
         self.newest[vertices.id] = vertices.header.stamp
 
-    def pose(self, _):
-        pose = PoseStamped()
-        pose.header.frame_id = 'world'
-        pose.header.stamp = rospy.Time.now()
-        pose.pose.position.z = 2.0
-        pose.pose.orientation.x = 1.0
-        self.tool.publish(pose)
+    def move(self, _):
+        """Moves the carriage toward its goal, by at most 1 cm."""
+        self.carriage += min(max(self.goal - self.carriage, -0.01), 0.01)
+        transform = TransformStamped(child_frame_id='carriage')
+        transform.header.frame_id = 'world'
+        transform.header.stamp = rospy.Time.now()
+        transform.transform.translation.x = self.carriage
+        transform.transform.translation.z = 1.8
+        transform.transform.rotation.w = 1.0
+        self.tf.publish(TFMessage([transform]))
 
     def deform(self, _):
         if self.liver.revision == 0:
@@ -73,6 +86,14 @@ class TableAndLiverTest(unittest.TestCase):
         warning = self.await_warning(lambda one: one.level == Warning.UNKNOWN)
         self.assertIn(f"workpiece '{name}' is 0.", warning.text)
         self.assertLess((warning.header.stamp - self.newest[name]).to_sec(), timeout + SLACK)
+
+    def test_a_brick_is_where_tf_moves_its_frame(self):
+        for goal, brick in ((0.05, 'left'), (-0.45, 'right')):
+            self.await_warning(lambda one: one.level == Warning.CLEAR)
+            self.goal = goal
+            self.assertEqual(self.await_warning(lambda one: one.level == Warning.CONTACT).mesh_id, brick)
+            self.goal = BETWEEN
+        self.await_warning(lambda one: one.level == Warning.CLEAR)
 
     def test_the_diagnostics_have_the_age_and_the_rule_of_each_and_name_a_rule_without_a_workpiece(self):
         self.await_warning(lambda one: one.level == Warning.CLEAR)
