@@ -18,14 +18,6 @@ constexpr auto kResolverStep = std::chrono::milliseconds(5);
 
 std::optional<XmlRpcCall::Answer> XmlRpcCall::call(const std::string& uri, const std::string& function,
                                                    const std::vector<XmlRpc::XmlRpcValue>& arguments) const {
-  const auto answer = callUnchecked(uri, function, arguments);
-  const bool is_answer = answer && answer->getType() == XmlRpc::XmlRpcValue::TypeArray && answer->size() == 3;
-  if (!is_answer || (*answer)[0].getType() != XmlRpc::XmlRpcValue::TypeInt) return std::nullopt;
-  return Answer{static_cast<int>((*answer)[0]) == 1, (*answer)[2]};
-}
-
-std::optional<XmlRpc::XmlRpcValue> XmlRpcCall::callUnchecked(const std::string& uri, const std::string& function,
-                                                             const std::vector<XmlRpc::XmlRpcValue>& arguments) const {
   std::string host;
   std::uint32_t port = 0;
   if (!ros::network::splitURI(uri, host, port)) return std::nullopt;
@@ -46,8 +38,9 @@ std::optional<XmlRpc::XmlRpcValue> XmlRpcCall::callUnchecked(const std::string& 
     if (stopping_ || std::chrono::steady_clock::now() >= deadline) return std::nullopt;
     client._disp.work(kStep);
   }
-  if (client.isFault()) return std::nullopt;
-  return answer;
+  const bool is_answer = !client.isFault() && answer.getType() == XmlRpc::XmlRpcValue::TypeArray && answer.size() == 3;
+  if (!is_answer || answer[0].getType() != XmlRpc::XmlRpcValue::TypeInt) return std::nullopt;
+  return Answer{static_cast<int>(answer[0]) == 1, answer[2]};
 }
 
 }  // namespace sweep_guard_ros

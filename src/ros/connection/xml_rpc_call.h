@@ -31,9 +31,6 @@ class XmlRpcCall {
   /// @returns empty if there was no answer
   std::optional<Answer> call(const std::string& uri, const std::string& function,
                              const std::vector<XmlRpc::XmlRpcValue>& arguments) const;
-  /// The same, for an answer that need not be of the form that ROS prescribes.
-  std::optional<XmlRpc::XmlRpcValue> callUnchecked(const std::string& uri, const std::string& function,
-                                                   const std::vector<XmlRpc::XmlRpcValue>& arguments) const;
 
  private:
   const std::chrono::milliseconds longest_;

@@ -8,7 +8,6 @@
 #include <map>
 #include <utility>
 
-#include "ros/connection/message_drops.h"
 #include "ros/connection/publisher_header.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
@@ -22,7 +21,10 @@ using sweep_guard_core::printable;
 using sweep_guard_core::SceneUpdate;
 
 constexpr size_t kMaxMessage = 96U << 20U;       // [bytes], as of a mesh
-constexpr std::uint32_t kMessagesQueued = 1000;  // each may be of another workpiece
+constexpr size_t kMaxWaiting = 256U << 20U;      // [bytes]
+constexpr size_t kOverhead = 512;                // of a job, beside its message [bytes]
+constexpr std::uint32_t kMessagesQueued = 1000;  // each may be of another workpiece; taken from it at once
+constexpr auto kDropped = "messages come faster than they can be read, and some are lost";
 constexpr int kTicksPerLook = 10;
 const std::string kTopicId = "topic ";          // before the name, so that no workpiece has this id
 constexpr std::uint32_t kStateAndObjects = 30;  // of moveit_msgs/PlanningSceneComponents: no octomap
@@ -66,17 +68,18 @@ void nameChange(sweep_guard_core::SceneChange& change) {
 
 }  // namespace
 
-EnvironmentSource::EnvironmentSource(const ros::NodeHandle& node, const EnvironmentTopic& topic, const XmlRpcCall& call,
-                                     Apply apply)
+EnvironmentSource::EnvironmentSource(const ros::NodeHandle& node, QueueThread& receiving, const EnvironmentTopic& topic,
+                                     const XmlRpcCall& call, Apply apply)
     : topic_(resolvedTopic(node, topic)),
       call_(call),
       apply_(std::move(apply)),
       node_(node),
-      subscriber_(subscribeRaw(thread_.on(node), topic_.topic, kMessagesQueued,
-                               [this](const RawMessage& message) { receive(message); })) {}
+      worker_(kMaxWaiting),
+      subscriber_(subscribeRaw(receiving.on(node), topic_.topic, kMessagesQueued,
+                               [this](const RawMessage& message) { push(message); })) {}
 
 void EnvironmentSource::start(Supervisor& supervisor) {
-  thread_.start(supervisor, {"environment", sweep_guard_core::Stage::kReceive, /*watched=*/false});
+  worker_.start(supervisor, {"environment", sweep_guard_core::Stage::kReceive, /*watched=*/false});
 }
 
 EnvironmentSource::State EnvironmentSource::state() const {
@@ -120,19 +123,44 @@ void EnvironmentSource::endRefusal() {
   apply_(update);
 }
 
-void EnvironmentSource::receive(const RawMessage& message) {
+void EnvironmentSource::push(const RawMessage& message) {
+  try {
+    const size_t size = message.bytes.size <= kMaxMessage ? message.bytes.size : 0;
+    const auto bytes = std::make_shared<const Bytes>(message.bytes.bytes, message.bytes.bytes + size);
+    worker_.push(
+        {[this, bytes, header = message.header] { receive(*bytes, header); }, [this] { drop(); }, kOverhead + size});
+  } catch (const std::bad_alloc&) {
+    drop();
+  }
+}
+
+void EnvironmentSource::drop() {
+  has_dropped_ = true;
+  refuse(kDropped);
+}
+
+void EnvironmentSource::receive(const Bytes& bytes, const boost::shared_ptr<ros::M_string>& header) {
   const bool is_read = attempt([&] {
-    if (message.header != connection_) {
+    if (header != connection_) {
       has_lost_ = false;
-      open(*message.header);
-      connection_ = message.header;
+      open(*header);
+      connection_ = header;
     }
-    if (message.bytes.size > kMaxMessage) throw InvalidInput("a message exceeds 96 MiB");
-    read(message.bytes, now().stamp);
+    makeUpForDropped();
+    if (bytes.empty()) throw InvalidInput("a message exceeds 96 MiB");
+    read({bytes.data(), bytes.size()}, now().stamp);
   });
   if (is_read) return;
   has_lost_ = true;
   if (reader_) attempt([this] { restart(); });
+}
+
+void EnvironmentSource::makeUpForDropped() {
+  if (!has_dropped_.exchange(false)) return;
+  restart();
+  has_lost_ = !reader_->isComplete();
+  if (has_lost_) return refuse(kDropped);
+  endRefusal();
 }
 
 void EnvironmentSource::begin(const std::string& type) {
@@ -196,10 +224,12 @@ bool EnvironmentSource::tick(const Publishers& publishers) {
   has_publisher_ = !publishers.empty();
   const bool waits = tick_pending_.exchange(true);
   if (!waits) {
-    thread_.post([this] {
-      attempt([this] { checkTopic(); });
-      tick_pending_ = false;
-    });
+    const auto done = [this] { tick_pending_ = false; };
+    worker_.push({[this, done] {
+                    attempt([this] { checkTopic(); });
+                    done();
+                  },
+                  done, /*bytes=*/0});
   }
   const bool rests = topic_.holds || (has_publisher_ && is_known_ && !topic_.streams);
   return rests && !waits && state().refused.empty();
@@ -207,28 +237,17 @@ bool EnvironmentSource::tick(const Publishers& publishers) {
 
 void EnvironmentSource::checkTopic() {
   if (reader_ && restarts_.exchange(false)) restart();
+  if (reader_) makeUpForDropped();
   if (reader_ && has_publisher_) {
     apply_(reader_->expire(now().stamp));
   }
   if (ticks_++ % kTicksPerLook != 0) return;
-  checkDrops();
   if (!reader_) {
     const std::string type = publishedTypes()[topic_.topic];
     if (type.empty()) return refuse("nobody has published it yet");
     begin(type);
   }
   if (needs_full_scene_) requestFullScene();
-}
-
-void EnvironmentSource::checkDrops() {
-  const auto drops = messageDrops(call_, topic_.topic);
-  if (!drops) return;
-  const int before = std::exchange(drops_, *drops);
-  if (*drops <= before || !reader_) return;
-  restart();
-  if (reader_->isComplete()) return;
-  has_lost_ = true;
-  throw InvalidInput("messages come faster than they can be read, and some were dropped");
 }
 
 // Messages that come meanwhile wait, and are read after the answer.

@@ -3,33 +3,37 @@
 #include <ros/node_handle.h>
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/guarded_by.h"
 #include "ros/connection/publisher_links.h"
 #include "ros/connection/xml_rpc_call.h"
+#include "ros/input/worker.h"
 #include "ros/scene/raw_messages.h"
 #include "ros/scene/scene_reader.h"
 #include "ros/threads/queue_thread.h"
 
 namespace sweep_guard_ros {
 
-/// Takes the messages of one topic in a thread of its own, by the definition that their publisher sends with them, and
+/// Reads the messages of one topic in a thread of its own, by the definition that their publisher sends with them, and
 /// reports what they change. What cannot be read, or is not known yet, is a refusal of the id "topic NAME". It ends with a
 /// message that says all, or with a new publisher.
 class EnvironmentSource {
  public:
   using Apply = std::function<void(sweep_guard_core::SceneUpdate)>;
 
-  /// @param call   must outlive it
-  /// @param apply  called in the thread of the source
-  EnvironmentSource(const ros::NodeHandle& node, const EnvironmentTopic& topic, const XmlRpcCall& call, Apply apply);
+  /// @param receiving  takes the messages from roscpp; must outlive it, and stop before
+  /// @param call       must outlive it
+  /// @param apply      called in the threads of the source and of `receiving`
+  EnvironmentSource(const ros::NodeHandle& node, QueueThread& receiving, const EnvironmentTopic& topic,
+                    const XmlRpcCall& call, Apply apply);
 
   void start(Supervisor& supervisor);
-  void stop() { thread_.stop(); }
   /// Lets time pass. To be called 10 times a second, by one thread.
   /// @param publishers  those that are connected now
   /// @returns whether its workpieces are as they were: nothing waits to be read, nothing is refused, and those who
@@ -46,9 +50,13 @@ class EnvironmentSource {
   const std::string& topic() const { return topic_.topic; }  ///< resolved
 
  private:
-  void receive(const RawMessage& message);
+  using Bytes = std::vector<std::uint8_t>;
+
+  void push(const RawMessage& message);
+  void drop();
+  void receive(const Bytes& bytes, const boost::shared_ptr<ros::M_string>& header);
+  void makeUpForDropped();
   void checkTopic();
-  void checkDrops();
   void begin(const std::string& type);
   void open(const ros::M_string& header);
   void read(Wire bytes, sweep_guard_core::Time now);
@@ -70,15 +78,15 @@ class EnvironmentSource {
   bool needs_full_scene_ = false;
   bool has_lost_ = false;  // a message, and none since has made up for it
   int ticks_ = 0;
-  int drops_ = 0;                            // of the connections that there are
   Publishers publishers_;                    // at the last tick(), whose thread alone uses it
   std::atomic<bool> has_publisher_ = false;  // at the last tick()
   std::atomic<bool> restarts_ = false;       // a publisher has gone
   std::atomic<bool> is_known_ = false;       // a message came since
   std::atomic<bool> tick_pending_ = false;   // the thread of the source has not come to the last tick()
+  std::atomic<bool> has_dropped_ = false;
   mutable sweep_guard_core::Mutex mutex_;
   State state_ GUARDED_BY(mutex_);
-  QueueThread thread_;
+  Worker worker_;
   ros::Subscriber subscriber_;
 };
 

@@ -66,7 +66,7 @@ SceneInputNode::SceneInputNode(const ros::NodeHandle& node, const ros::NodeHandl
   updater_.add("scene", [this](Status& status) { report(status); });
   for (const EnvironmentTopic& topic : topics_) {
     EnvironmentSource& source = sources_.emplace_back(
-        node, topic, confirmations_.call(),
+        node, receiving_, topic, confirmations_.call(),
         [this, name = node.resolveName(topic.topic)](SceneUpdate update) { apply(name, std::move(update)); });
     updater_.add(source.topic(), [this, &source](Status& status) { report(source, status); });
   }
@@ -85,13 +85,14 @@ SceneInputNode::~SceneInputNode() {
   master_watch_.stop();  // its thread uses what is declared after it
   confirmations_.stop();
   attachments_.stop();
-  for (EnvironmentSource& source : sources_) source.stop();
+  receiving_.stop();
   calls_.stop();
 }
 
 void SceneInputNode::start() {
   calls_.start(supervisor_, {"calls"});
   for (EnvironmentSource& source : sources_) source.start(supervisor_);
+  receiving_.start(supervisor_, {"messages", sweep_guard_core::Stage::kReceive});
   attachments_.start(supervisor_);
   confirmations_.start(supervisor_);
   reports_.start(supervisor_, {"reports", sweep_guard_core::Stage::kPublish});

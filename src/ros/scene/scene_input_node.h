@@ -60,6 +60,7 @@ class SceneInputNode {
   LogThrottle log_;
   MasterThread confirmations_;  // of its own: a master that does not answer must not delay them
   QueueThread calls_;           // before what uses its queue
+  QueueThread receiving_;       // the same
   WorkpiecePublisher workpieces_;
   Attachments attachments_;
   mutable sweep_guard_core::Mutex mutex_;
