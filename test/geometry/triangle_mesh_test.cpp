@@ -104,7 +104,7 @@ TEST(TriangleMeshTest, DeformsToTheGivenPositions) {
 TEST(TriangleMeshTest, IsAfterADeformationAsFarOffAsItsSenderMayHaveRounded) {
   const auto roundingOf = [](const Eigen::Vector3f& largest) {
     std::vector<float> positions(12, 0.0F);
-    for (const int axis : {0, 1, 2}) positions[static_cast<size_t>(3 * axis + axis)] = -largest[axis];
+    for (const int axis : {0, 1, 2}) positions[4 * static_cast<size_t>(axis)] = -largest[axis];
     return deformed({kVertices, kTriangles}, positions).rounding();
   };
   EXPECT_NEAR(roundingOf({1.5F, 1.0F, 1.99F}), std::sqrt(3.0) * 0x1p-24, 1e-15);
