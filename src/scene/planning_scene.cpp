@@ -16,6 +16,7 @@ using Operation = CollisionObject::Operation;
 constexpr size_t kMaxProblems = 10000;  // that are remembered
 static_assert(PlanningScene::kMaxObjects == 1000);
 constexpr auto kFull = "the planning scene has 1000 objects already: remove some";
+constexpr auto kUnknown = "the whole planning scene is not known";
 constexpr auto kDetached = "detached, and where it is now is not known";
 
 bool hasShapes(const CollisionObject& object) {
@@ -226,7 +227,7 @@ void PlanningScene::clear(Map& map) {
 }
 
 std::string PlanningScene::refusalOf(const Body& body) const {
-  if (awaits_full_scene_) return "the full planning scene is not known yet";
+  if (awaits_full_scene_) return kUnknown;
   return body.is_place_known ? "" : kDetached;
 }
 
@@ -238,7 +239,7 @@ SceneChange PlanningScene::changeOf(const std::string& id) const {
   change.object.id = id;
   if (attached != attached_.end()) change.link = attached->second.link;
   if (problem != problems_.end()) {
-    change.refused = problem->second;
+    change.refused = awaits_full_scene_ ? kUnknown : problem->second;
   } else if (in_world != world_.end() && attached != attached_.end()) {
     change.refused = "both in the world and attached to '" + printable(change.link) + "': give one of them another id";
   } else if (in_world != world_.end() || attached != attached_.end()) {

@@ -355,7 +355,7 @@ TEST_F(PlanningSceneTest, ADiffBeforeTheFullSceneIsRefusedAndAsksForIt) {
   PlanningScene scene(/*awaits_full_scene=*/true);
   const SceneUpdate told = scene.apply(diff({add("table")}));
   EXPECT_TRUE(told.needs_full_scene);
-  EXPECT_EQ(only(told).refused, "the full planning scene is not known yet");
+  EXPECT_EQ(only(told).refused, "the whole planning scene is not known");
   EXPECT_TRUE(scene.apply(diff({})).needs_full_scene);
   EXPECT_FALSE(scene.apply(full({})).needs_full_scene);
 }

@@ -31,6 +31,8 @@ class FrameBuffer {
   /// @throws tf2::TransformException
   geometry_msgs::TransformStamped lookup(const std::string& target, const std::string& source, ros::Time stamp) const;
 
+  /// Returns whether tf has a frame of this name.
+  bool has(const std::string& frame) const { return buffer_._frameExists(frame); }
   /// Returns whether a frame has ever moved.
   bool moves(const std::string& child) const { return stamps_.count(child) != 0; }
 

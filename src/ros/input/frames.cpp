@@ -280,8 +280,12 @@ std::optional<sweep_guard_core::Time> Frames::newest(const std::string& target, 
 FrameError Frames::noTransform(const std::string& target, const std::string& source, const std::string& why) const {
   const std::set<std::string> frames = tree_.between(withoutSlash(target), withoutSlash(source));
   const std::string refused = refused_.find([&](const std::string& child) { return frames.count(child) != 0; });
-  return FrameError("no transform from '" + printable(source) + "' to '" + printable(target) +
-                    "': " + printable(why, kMaxReason) + (refused.empty() ? "" : ": " + refused));
+  std::string reason = printable(why, kMaxReason);
+  for (const std::string& frame : {target, source}) {
+    if (!buffer_.has(withoutSlash(frame))) reason = "tf has no frame '" + printable(frame) + "'";
+  }
+  return FrameError("no transform from '" + printable(source) + "' to '" + printable(target) + "': " + reason +
+                    (refused.empty() ? "" : ": " + refused));
 }
 
 }  // namespace sweep_guard_ros

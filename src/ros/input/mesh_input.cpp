@@ -25,6 +25,7 @@ constexpr size_t kMinCapacity = 256U << 20U;   // [bytes]
 constexpr size_t kMaxSendersReason = 500;      // of a sender [bytes]
 constexpr size_t kOverhead = 512;              // of a job and its message, beside the serialized bytes
 constexpr size_t kMaxEarly = 1024;             // meshes
+constexpr size_t kMaxPassedOver = 100;         // ids
 constexpr std::uint32_t kMeshesQueued = 1000;  // each message may be of another workpiece; taken from it at once
 
 void checkHeader(const std_msgs::Header& header) {
@@ -134,8 +135,16 @@ void MeshInput::pushToStore(const sweep_guard::MeshVertices::ConstPtr& msg, Stea
                  sizeOf(*msg), /*replaceable=*/true});
 }
 
+void MeshInput::passOver(const std::string& id) {
+  const sweep_guard_core::Lock lock(passed_over_mutex_);
+  if (passed_over_.size() < kMaxPassedOver) passed_over_.insert(printable(id));
+}
+
 bool MeshInput::readable(const std::string& id, const std_msgs::Header& header, InputRecord& record) {
-  if (!mesh_ids_.empty() && mesh_ids_.count(id) == 0) return false;
+  if (!mesh_ids_.empty() && mesh_ids_.count(id) == 0) {
+    passOver(id);
+    return false;
+  }
   record.received({fromMsg(header.stamp), std::chrono::steady_clock::now()});
   const auto is_link = [&](const std::string& tool) { return id.compare(0, tool.size() + 1, tool + "/") == 0; };
   if (std::any_of(other_tools_.begin(), other_tools_.end(), is_link)) {
@@ -237,7 +246,7 @@ void MeshInput::store(const sweep_guard::DeformableMesh& msg, SteadyTime receive
       return;
     }
     const bool was_refused = monitor_.meshAccepted(msg.id, received);
-    if (!removed && !was_refused) ROS_WARN_THROTTLE(1.0, "no workpiece '%s' to remove", msg.id.c_str());
+    if (!removed && !was_refused) ROS_INFO_THROTTLE(1.0, "no workpiece '%s' to remove", msg.id.c_str());
   } catch (const std::exception& error) {  // invalid, or out of memory
     monitor_.meshRefused(msg.id, refusal(msg.id, error, mesh_record_), received);
   }

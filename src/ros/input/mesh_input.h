@@ -44,6 +44,11 @@ class MeshInput {
   std::uint32_t verticesPublishers() const { return vertices_.getNumPublishers(); }
   const sweep_guard_core::InputRecord& meshRecord() const { return mesh_record_; }
   const sweep_guard_core::InputRecord& verticesRecord() const { return vertices_record_; }
+  /// Returns ids that came and are none of mesh_ids: the first hundred.
+  std::set<std::string> passedOver() const {
+    const sweep_guard_core::Lock lock(passed_over_mutex_);
+    return passed_over_;
+  }
   std::uint64_t droppedUpdates() const { return dropped_; }  ///< messages on both topics, since the start
 
  private:
@@ -57,6 +62,7 @@ class MeshInput {
                               sweep_guard_core::InputRecord& record);
   void onMessage(const sweep_guard::DeformableMesh::ConstPtr& msg);
   void onMessage(const sweep_guard::MeshVertices::ConstPtr& msg);
+  void passOver(const std::string& id);
   bool readable(const std::string& id, const std_msgs::Header& header, sweep_guard_core::InputRecord& record);
   void unread(const std::string& reason, sweep_guard_core::InputRecord& record);
   bool enterConversion(const std::string& id, bool needed);
@@ -88,6 +94,8 @@ class MeshInput {
   sweep_guard_core::InputRecord mesh_record_;
   sweep_guard_core::InputRecord vertices_record_;
   std::atomic<std::uint64_t> dropped_ = 0;
+  mutable sweep_guard_core::Mutex passed_over_mutex_;
+  std::set<std::string> passed_over_ GUARDED_BY(passed_over_mutex_);
   sweep_guard_core::Mutex conversion_mutex_;
   std::map<std::string, size_t> in_conversion_ GUARDED_BY(conversion_mutex_);  // by id: messages that converting_ has
   sweep_guard_core::Mutex early_mutex_;

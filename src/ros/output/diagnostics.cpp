@@ -229,6 +229,7 @@ void Diagnostics::workpieces(Status& status) const {
   reportAges(state_.monitor.heard(), parameters->limits, status);
   reportUnusedRules(*parameters, workpieces, status);
   for (const std::string& id : parameters->attached) status.add("'" + id + "'", "attached to the tool");
+  for (const std::string& id : inputs_.meshes().passedOver()) status.add("'" + id + "'", "not heard: none of mesh_ids");
   const auto distances = state_.distances.get();
   const std::string doubt = sweep_guard_core::doubtfulSizes(workpieces, distances);
   if (!doubt.empty()) status.mergeSummary(DiagnosticStatus::WARN, doubt);

@@ -26,7 +26,6 @@ constexpr size_t kOverhead = 512;                // of a job, beside its message
 constexpr std::uint32_t kMessagesQueued = 1000;  // each may be of another workpiece; taken from it at once
 constexpr auto kDropped = "messages come faster than they can be read, and some are lost";
 constexpr int kTicksPerLook = 10;
-const std::string kTopicId = "topic ";          // before the name, so that no workpiece has this id
 constexpr std::uint32_t kStateAndObjects = 30;  // of moveit_msgs/PlanningSceneComponents: no octomap
 
 EnvironmentTopic resolvedTopic(const ros::NodeHandle& node, EnvironmentTopic topic) {
@@ -69,10 +68,11 @@ void nameChange(sweep_guard_core::SceneChange& change) {
 }  // namespace
 
 EnvironmentSource::EnvironmentSource(const ros::NodeHandle& node, QueueThread& receiving, const EnvironmentTopic& topic,
-                                     const XmlRpcCall& call, Apply apply)
+                                     const XmlRpcCall& call, Apply apply, Refuse refuse)
     : topic_(resolvedTopic(node, topic)),
       call_(call),
       apply_(std::move(apply)),
+      refuse_(std::move(refuse)),
       node_(node),
       worker_(kMaxWaiting),
       subscriber_(subscribeRaw(receiving.on(node), topic_.topic, kMessagesQueued,
@@ -106,10 +106,7 @@ void EnvironmentSource::refuse(const std::string& why) {
     if (state_.refused == why) return;
     state_.refused = why;
   }
-  SceneUpdate update;
-  update.changes.emplace_back().object.id = kTopicId + topic_.topic;
-  update.changes.back().refused = why;
-  apply_(update);
+  refuse_(why);
 }
 
 void EnvironmentSource::endRefusal() {
@@ -118,9 +115,7 @@ void EnvironmentSource::endRefusal() {
     if (state_.refused.empty()) return;
     state_.refused.clear();
   }
-  SceneUpdate update;
-  update.changes.emplace_back().object.id = kTopicId + topic_.topic;
-  apply_(update);
+  refuse_("");
 }
 
 void EnvironmentSource::push(const RawMessage& message) {

@@ -21,17 +21,19 @@
 namespace sweep_guard_ros {
 
 /// Reads the messages of one topic in a thread of its own, by the definition that their publisher sends with them, and
-/// reports what they change. What cannot be read, or is not known yet, is a refusal of the id "topic NAME". It ends with a
-/// message that says all, or with a new publisher.
+/// reports what they change. What cannot be read, or is not known yet, is a refusal of the topic. It ends with a message that
+/// says all, or with a new publisher.
 class EnvironmentSource {
  public:
   using Apply = std::function<void(sweep_guard_core::SceneUpdate)>;
+  using Refuse = std::function<void(const std::string& why)>;  ///< empty: the refusal has ended
 
   /// @param receiving  takes the messages from roscpp; must outlive it, and stop before
   /// @param call       must outlive it
-  /// @param apply      called in the threads of the source and of `receiving`
+  /// @param apply      called in the thread of the source
+  /// @param refuse     called there and in that of `receiving`
   EnvironmentSource(const ros::NodeHandle& node, QueueThread& receiving, const EnvironmentTopic& topic,
-                    const XmlRpcCall& call, Apply apply);
+                    const XmlRpcCall& call, Apply apply, Refuse refuse);
 
   void start(Supervisor& supervisor);
   /// Lets time pass. To be called 10 times a second, by one thread.
@@ -70,6 +72,7 @@ class EnvironmentSource {
   const EnvironmentTopic topic_;
   const XmlRpcCall& call_;
   const Apply apply_;
+  const Refuse refuse_;
   ros::NodeHandle node_;
   boost::shared_ptr<ros::M_string> connection_;  // of the newest message
   std::string md5_;                              // of the definition

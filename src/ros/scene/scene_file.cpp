@@ -24,6 +24,7 @@ using sweep_guard_core::SceneObject;
 using sweep_guard_core::TriangleSurface;
 
 constexpr double kMaxPlace = 1e6;  // [m]
+constexpr double kMaxAngle = 6.3;  // [rad]; a full turn: whoever says more means degrees
 constexpr size_t kMaxObjects = 1000;
 constexpr std::uintmax_t kMaxSceneFile = 1U << 20U;
 
@@ -128,8 +129,10 @@ std::string shapeIn(const YAML::Node& object) {
 }
 
 void place(const YAML::Node& object, TriangleSurface& surface) {
-  const Eigen::Vector3d position = vectorOf(object["position"], "[x, y, z] [m]");
-  const Eigen::Vector3d rpy = vectorOf(object["rpy"], "[roll, pitch, yaw] [rad]");
+  const Eigen::Vector3d position = vectorOf(object["position"], "a position [x, y, z] [m]");
+  const char* const angles = "the angles [roll, pitch, yaw] [rad], each within a turn";
+  const Eigen::Vector3d rpy = vectorOf(object["rpy"], angles);
+  if (rpy.cwiseAbs().maxCoeff() > kMaxAngle) refuse(object["rpy"], std::string("must be ") + angles);
   const Eigen::Vector3d scale = scaleOf(object["scale"]);
   const Eigen::Matrix3d R =
       (Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) *
@@ -197,7 +200,8 @@ YAML::Node load(const std::string& scene) {
   if (isText(scene)) return YAML::Load(scene);
   std::error_code error;
   if (std::filesystem::file_size(scene, error) > kMaxSceneFile || error)
-    throw InvalidInput(error ? error.message() : "larger than 1 MiB: describe the workpieces in mesh files");
+    throw InvalidInput(error ? error.message() + ": give an absolute path"
+                             : "larger than 1 MiB: describe the workpieces in mesh files");
   return YAML::LoadFile(scene);
 }
 

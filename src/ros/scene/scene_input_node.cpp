@@ -17,6 +17,8 @@ namespace sweep_guard_ros {
 namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
+using sweep_guard_core::kMaxNameLength;
+using sweep_guard_core::printable;
 using sweep_guard_core::SceneChange;
 using sweep_guard_core::SceneUpdate;
 
@@ -41,7 +43,7 @@ std::string listedSources(const BySource& sources) {
 bool isGone(const SceneChange& change) { return change.refused.empty() && change.object.surface_M.triangles.empty(); }
 
 // While the guard has not attached it: the guard would not attach what is refused.
-std::string heldId(const std::string& id) { return id.substr(0, sweep_guard_core::kMaxNameLength - 6) + " (held)"; }
+std::string heldId(const std::string& id) { return id.substr(0, kMaxNameLength - 6) + " (held)"; }
 
 }  // namespace
 
@@ -56,6 +58,7 @@ SceneInputNode::SceneInputNode(const ros::NodeHandle& node, const ros::NodeHandl
       workpieces_(calls_.on(node), [this] { attachments_.beginAnew(); }),
       attachments_(node, read.node("guard", "sweep_guard"),
                    [this](const std::string& id, const std::string& why) { reportAttachment(id, why); }),
+      topics_id_("topics of " + printable(private_node.getNamespace(), kMaxNameLength / 2)),
       updater_(node, private_node, private_node.getNamespace()) {
   read.number("diagnostic_period", 1.0, {0.0, std::numeric_limits<double>::infinity()});  // set by diagnostic_updater
   read.warnOfUnread();
@@ -64,10 +67,13 @@ SceneInputNode::SceneInputNode(const ros::NodeHandle& node, const ros::NodeHandl
   topics_ = std::move(scene.topics);
   updater_.setHardwareID("none");
   updater_.add("scene", [this](Status& status) { report(status); });
+  workpieces_.withdraw(topics_id_);
   for (const EnvironmentTopic& topic : topics_) {
+    const std::string name = node.resolveName(topic.topic);
     EnvironmentSource& source = sources_.emplace_back(
         node, receiving_, topic, confirmations_.call(),
-        [this, name = node.resolveName(topic.topic)](SceneUpdate update) { apply(name, std::move(update)); });
+        [this, name](SceneUpdate update) { apply(name, std::move(update)); },
+        [this, name](const std::string& why) { refuseTopic(name, why); });
     updater_.add(source.topic(), [this, &source](Status& status) { report(source, status); });
   }
   replaceObjects(std::move(scene.objects));
@@ -106,13 +112,15 @@ bool SceneInputNode::load(std_srvs::Trigger::Request& /*request*/, std_srvs::Tri
   try {
     Scene scene = readScene(scene_);
     if (!sameTopics(scene.topics, topics_))
-      throw sweep_guard_core::InvalidInput("the topics under `environment` have changed: start scene_input anew");
+      throw sweep_guard_core::InvalidInput(
+          "the topics under `environment` have changed: end scene_input, so that it starts anew");
     const size_t count = scene.objects.size();
     replaceObjects(std::move(scene.objects));
     response.success = 1;
     response.message = std::to_string(count) + " workpieces";
   } catch (const std::exception& error) {
     response.message = error.what();
+    ROS_ERROR("the scene stays as it was: %s", error.what());
   }
   return true;
 }
@@ -148,6 +156,18 @@ void SceneInputNode::apply(const std::string& source, SceneUpdate update) {
     }
     publish(id);
   }
+}
+
+// Under one id, so that the refusals of a process before this one end.
+void SceneInputNode::refuseTopic(const std::string& topic, const std::string& why) {
+  if (!why.empty()) log_.error(topic, "topic " + topic + " refused: " + why);
+  const sweep_guard_core::Lock lock(mutex_);
+  refused_topics_.erase(topic);
+  if (!why.empty()) refused_topics_.emplace(topic, why);
+  std::string all;
+  for (const auto& [name, reason] : refused_topics_) all += (all.empty() ? "" : "; ") + name + ": " + reason;
+  if (all.empty()) return workpieces_.withdraw(topics_id_);
+  workpieces_.refuse(topics_id_, all);
 }
 
 // What holds of a workpiece follows from what all sources say of it. One that is attached is the guard's.
@@ -211,7 +231,10 @@ void SceneInputNode::confirm() {
 void SceneInputNode::report(Status& status) const {
   const sweep_guard_core::Lock lock(mutex_);
   status.summary(DiagnosticStatus::OK, std::to_string(workpieces_by_id_.size()) + " ids");
-  for (const auto& [id, sources] : workpieces_by_id_) status.add("'" + id + "'", "from " + listedSources(sources));
+  for (const auto& [id, sources] : workpieces_by_id_) {
+    status.add("'" + id + "'", "from " + listedSources(sources));
+    if (sources.size() > 1) status.mergeSummary(DiagnosticStatus::ERROR, "'" + id + "' has more than one source");
+  }
 }
 
 void SceneInputNode::report(const EnvironmentSource& source, Status& status) const {

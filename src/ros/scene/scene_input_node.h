@@ -47,6 +47,7 @@ class SceneInputNode {
   void replaceObjects(std::vector<sweep_guard_core::SceneObject> objects);
   void apply(const std::string& source, sweep_guard_core::SceneUpdate update);
   void publish(const std::string& id) REQUIRES(mutex_);
+  void refuseTopic(const std::string& topic, const std::string& why);
   void reportAttachment(const std::string& id, const std::string& why);
   void confirm();
   void report(Status& status) const;
@@ -67,7 +68,9 @@ class SceneInputNode {
   /// What sources say of a workpiece, by their names.
   using BySource = std::map<std::string, std::shared_ptr<const sweep_guard_core::SceneChange>>;
   std::map<std::string, BySource> workpieces_by_id_ GUARDED_BY(mutex_);
-  std::vector<EnvironmentTopic> topics_;  // of the scene
+  const std::string topics_id_;  // of a refused workpiece that stands for all refused topics
+  std::map<std::string, std::string> refused_topics_ GUARDED_BY(mutex_);  // and why
+  std::vector<EnvironmentTopic> topics_;                                  // of the scene
   std::deque<EnvironmentSource> sources_;
   ros::ServiceServer load_service_;
   diagnostic_updater::Updater updater_;

@@ -77,16 +77,21 @@ void WorkpiecePublisher::refuse(const std::string& id, const std::string& why) {
 
 void WorkpiecePublisher::remove(const std::string& id) {
   const sweep_guard_core::Lock lock(mutex_);
-  sweep_guard::DeformableMesh gone;
-  gone.header.stamp = ros::Time::now();
-  gone.id = id;
-  mesh_.publish(gone);
+  mesh_.publish(messageOf(id, {}));
   published_.erase(id);
+}
+
+void WorkpiecePublisher::withdraw(const std::string& id) {
+  const sweep_guard_core::Lock lock(mutex_);
+  Published& published = published_[id];
+  published = {};
+  mesh_.publish(messageOf(id, published));
 }
 
 sweep_guard::DeformableMesh WorkpiecePublisher::messageOf(const std::string& id, const Published& published) {
   sweep_guard::DeformableMesh message;
-  if (!published.refused.empty()) {
+  if (!published.refused.empty() || !published.object) {
+    message.header.stamp = ros::Time::now();
     message.id = id;
     message.refused = published.refused;
     return message;
@@ -124,7 +129,7 @@ void WorkpiecePublisher::confirm(const std::function<bool(const std::string& id)
   const ros::Time stamp = ros::Time::now();
   for (auto& [id, published] : published_) {
     const bool moves = std::exchange(published.moves, false);
-    if (!published.refused.empty() || moves) continue;
+    if (!published.refused.empty() || !published.object || moves) continue;
     if (published.has_moved) {
       if (now().steady - published.mesh_at >= kMeshArrives) publishMesh(published);
     } else if (rests(id)) {

@@ -31,6 +31,8 @@ class WorkpiecePublisher {
   /// @param as_mesh  publishes no positions alone
   void show(const Object& object, bool as_mesh = false);
   void remove(const std::string& id);  ///< also of a workpiece that is not known here
+  /// The same, and tells guards that start later, too: they may know it from a process before this one.
+  void withdraw(const std::string& id);
   /// Says why a workpiece cannot be given as it is: the guard is UNKNOWN until show() or remove().
   void refuse(const std::string& id, const std::string& why);
   /// Says that those workpieces are as they were for which `rests` returns true. To be called 10 times a second.
@@ -40,7 +42,7 @@ class WorkpiecePublisher {
 
  private:
   struct Published {
-    Object object;                              // null: none yet
+    Object object;                              // null: none yet, or withdrawn
     std::uint32_t revision = 0;                 // of the newest mesh; 0: none
     std::string refused = {};                   // why; empty: it is as `object` says
     sweep_guard_core::SteadyTime mesh_at = {};  // when the newest mesh was published
