@@ -342,6 +342,28 @@ TEST(IntendedContactTest, TheLargestDepthOfALinkCounts) {
   EXPECT_EQ(contact.intendedDepth(0, 4), 0.0);
 }
 
+TEST(IntendedTouchesTest, ALinkHasLeftWhenItIsAwayByThePaddingAndACentimeter) {
+  const Tool tool({{"tip", ConvexShape::sphere(0.001)}});
+  for (const double padding : {0.0, 0.02}) {
+    TriangleMesh mesh = slab();
+    mesh.pad(padding);
+    const auto bone = std::make_shared<const Workpiece>(Workpiece{"bone", 1, Time(), SteadyTime(), "table", mesh});
+    const Intentions intended = {{"bone", mesh.sharedTriangles(), {0}, 0.01}};
+    SweepReport report;
+    report.objects.emplace_back().workpiece = bone;
+    report.objects[0].result.in_contact.emplace_back().intended = true;
+    const PoseWithFrames pose{Time(), SteadyTime(), Eigen::Isometry3d(), {{"table", Eigen::Isometry3d::Identity()}}};
+    const auto at = [](double z) { return Eigen::Isometry3d(Eigen::Translation3d(-0.024, -0.024, z)); };
+    IntendedTouches touches;
+    touches.update(report, pose, at(0.0), tool, intended);
+    report.objects[0].result.in_contact.clear();
+    touches.update(report, pose, at(padding + 0.0109), tool, intended);
+    EXPECT_TRUE(touches.contains("bone", "tip")) << padding;
+    touches.update(report, pose, at(padding + 0.0111), tool, intended);
+    EXPECT_FALSE(touches.contains("bone", "tip")) << padding;
+  }
+}
+
 // A quick answer from the neighbor's normal is the same as the exact one, or no.
 TEST(IntendedTrianglesTest, NeighborsDoNotChangeTheAnswer) {
   Random random(5);

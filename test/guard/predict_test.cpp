@@ -175,6 +175,17 @@ TEST_F(GuardPredictionTest, ReportsWhenThePathMeetsASquare) {
   }
 }
 
+TEST_F(GuardPredictionTest, APaddedWorkpieceIsMetEarlierByItsPadding) {
+  TriangleMesh padded = squareAt(0.0);
+  padded.pad(0.01);
+  workpieces_ = {workpieceWith("square", padded)};
+  follow(comingDown(0.05, 0.1));
+  const auto expected = predictedContact(predict());
+  ASSERT_TRUE(expected);
+  EXPECT_LE(expected->earliest(), Time(10400ms));
+  EXPECT_GT(expected->earliest(), Time(10394ms));
+}
+
 TEST_F(GuardPredictionTest, ReportsTrianglesOfTheReflexIntervalSeparately) {
   workpieces_ = {workpieceWith("square", squareAt(0.0))};
   follow(comingDown(0.005, 0.1));

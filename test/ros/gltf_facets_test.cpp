@@ -67,6 +67,18 @@ TEST(GltfFacetsTest, StripsAndFansAreTriangles) {
   EXPECT_EQ(fan[9], kGltfTetrahedron[2]);  // 0 2 3
 }
 
+TEST(GltfFacetsTest, AMillionTrianglesAreTheMost) {
+  const auto fan = [](size_t corners) {
+    const std::string count = std::to_string(corners);
+    std::string text = withPart(withMode(6), R"(5123, "count": 12)", R"(5121, "count": )" + count);
+    text = withPart(text, R"("byteLength": 24)", R"("byteLength": )" + count);
+    text = withPart(text, R"("byteLength": 72)", R"("byteLength": )" + std::to_string(48 + corners));
+    return withPart(text, R"("}]})", std::string((corners / 3 + 1) * 4, 'A') + R"("}]})");
+  };
+  EXPECT_EQ(readGltfFacets(fan(1'000'002)).size(), 1'000'000U);
+  EXPECT_EQ(refusedGltf(fan(1'000'003)), "more than a million triangles");
+}
+
 TEST(GltfFacetsTest, WithoutIndicesTheVerticesAreTheCorners) {
   const std::string three = withPart(gltf(R"(, "indices": 1)", ""), R"("count": 4)", R"("count": 3)");
   EXPECT_EQ(readGltfFacets(three), std::vector<Facet>{kGltfTetrahedron[0]});

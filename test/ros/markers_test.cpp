@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "sweep_guard/geometry/tool.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
 
 namespace sweep_guard_ros {
@@ -97,6 +99,20 @@ TEST_F(WorkpieceMarkersTest, BeyondTheBoundATextIsInPlaceOfAWorkpiece) {
   EXPECT_EQ(drawn[1].header.frame_id, "table");
   EXPECT_EQ(drawn[1].pose.position.y, 1.0);
   EXPECT_EQ(drawn[2].points.size(), 3U);
+}
+
+// So rviz knows its frame there.
+TEST_F(WorkpieceMarkersTest, AWorkpieceIsDrawnAtTheNewestPoseUnlessItIsNewer) {
+  auto bodies = std::vector<sweep_guard_core::Tool>{sweep_guard_core::Tool::cylinder(0.01, 0.1)};
+  scene_.tool = std::make_shared<const sweep_guard_core::Tool>(bodies.front());
+  scene_.bodies = std::make_shared<const std::vector<sweep_guard_core::Tool>>(std::move(bodies));
+  for (const int end : {9, 5}) {
+    auto report = std::make_shared<sweep_guard_core::SweepReport>();
+    report->end = sweep_guard_core::Time(std::chrono::seconds(end));
+    scene_.newest = report;
+    show({workpieceOf("liver", 1)});
+    EXPECT_EQ(drawAfter(milliseconds(10000 - 1000 * end)).at(0).header.stamp, ros::Time(std::max(end, 7)));
+  }
 }
 
 TEST_F(WorkpieceMarkersTest, LinksOfOtherToolsAreNotDrawn) {

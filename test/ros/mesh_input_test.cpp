@@ -63,8 +63,16 @@ class MeshInputTest : public testing::Test {
     return monitor_.meshProblems({now().stamp + later, now().steady + later}, {});
   }
 
+  // With rules for two workpieces that most tests do not have.
+  static Parameters parameters() {
+    Parameters parameters = loadParameters(ros::NodeHandle("~"));
+    parameters.paddings.by_id["padded"] = 0.01;
+    parameters.sheets.by_id["curtain"] = true;
+    return parameters;
+  }
+
   ros::NodeHandle node_;
-  const Parameters parameters_ = loadParameters(ros::NodeHandle("~"));
+  const Parameters parameters_ = parameters();
   sweep_guard_core::WarningMonitor monitor_{
       {parameters_.limits.pose_timeout, /*mesh_timeout=*/sweep_guard_core::Duration::max(), {}}};
   sweep_guard_core::WorkpieceStore workpieces_{[this](const auto& all) { monitor_.setWorkpieces(all); }};
@@ -106,6 +114,19 @@ TEST_F(MeshInputTest, AMeshThatItsSenderRefusesIsRefusedInItsWords) {
   again->header.stamp += ros::Duration(0.01);
   meshes_.publish(again);
   EXPECT_TRUE(await([&] { return problems().empty(); }));
+}
+
+TEST_F(MeshInputTest, AWorkpieceIsAsItsRulesSay) {
+  for (const std::string& id : {kId, std::string("padded"), std::string("curtain")}) {
+    const auto mesh = strip(begin_);
+    mesh->id = id;
+    meshes_.publish(mesh);
+  }
+  ASSERT_TRUE(await([&] { return workpieces_.snapshot().size() == 3; }));
+  for (const auto& workpiece : workpieces_.snapshot()) {
+    EXPECT_EQ(workpiece->mesh_M.padding(), workpiece->id == "padded" ? 0.01 : 0.0);
+    EXPECT_EQ(workpiece->mesh_M.isSheet(), workpiece->id == "curtain") << workpiece->id;
+  }
 }
 
 // It says nothing of where the workpiece is, so nothing but the end of its age depends on it.

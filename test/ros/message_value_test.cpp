@@ -12,43 +12,14 @@
 #include <random>
 
 #include "refusal.h"
-#include "ros/raw_message.h"
+#include "ros/collision_object.h"
+#include "ros/sent_message.h"
 
 namespace sweep_guard_ros {
 namespace {
 
 using sweep_guard_core::Duration;
 using sweep_guard_core::Triangle;
-using Bytes = std::vector<std::uint8_t>;
-
-Wire wireOf(const Bytes& bytes) { return {bytes.data(), bytes.size()}; }
-
-/// A message and its bytes.
-struct Sent {
-  MessageDefinition definition;
-  Bytes bytes;
-
-  MessageValue value() const { return {definition, wireOf(bytes)}; }
-};
-
-template <typename Msg>
-Sent sent(const Msg& msg) {
-  return {{ros::message_traits::datatype<Msg>(), ros::message_traits::definition<Msg>()}, serialized(msg).bytes};
-}
-
-// Appends what the generated serializers write.
-template <typename... Fields>
-Bytes fieldBytes(const Fields&... fields) {
-  Bytes bytes;
-  const auto append = [&bytes](const Bytes& more) { bytes.insert(bytes.end(), more.begin(), more.end()); };
-  (append(serialized(fields).bytes), ...);
-  return bytes;
-}
-
-template <typename... Fields>
-Sent sent(const std::string& definition, const Fields&... fields) {
-  return {{"a/A", definition}, fieldBytes(fields...)};
-}
 
 geometry_msgs::Point point(double x, double y, double z) {
   geometry_msgs::Point point;
@@ -207,26 +178,6 @@ TEST(MessageValueTest, GivesTheBytesOfACloud) {
   const Sent message = sent(cloud);
   const Wire data = message.value()["data"].bytes();
   EXPECT_EQ(Bytes(data.bytes, data.bytes + data.size), (Bytes{1, 2, 250}));
-}
-
-const std::string kObjectTypes =
-    "MSG: std_msgs/Header\nuint32 seq\ntime stamp\nstring frame_id\n"
-    "MSG: object_recognition_msgs/ObjectType\nstring key # in a database\nstring db\n"
-    "MSG: shape_msgs/SolidPrimitive\nuint8 BOX=1\nuint8 type\nfloat64[] dimensions\n"
-    "MSG: shape_msgs/Mesh\nMeshTriangle[] triangles\ngeometry_msgs/Point[] vertices\n"
-    "MSG: shape_msgs/MeshTriangle\nuint32[3] vertex_indices\n"
-    "MSG: shape_msgs/Plane\nfloat64[4] coef\n"
-    "MSG: geometry_msgs/Pose\nPoint position\nQuaternion orientation\n"
-    "MSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n"
-    "MSG: geometry_msgs/Quaternion\nfloat64 x\nfloat64 y\nfloat64 z\nfloat64 w\n";
-
-std::string objectDefinition(const std::string& pose, const std::string& names) {
-  return "Header header\n" + pose +
-         "string id\nobject_recognition_msgs/ObjectType type\n"
-         "shape_msgs/SolidPrimitive[] primitives\ngeometry_msgs/Pose[] primitive_poses\n"
-         "shape_msgs/Mesh[] meshes\ngeometry_msgs/Pose[] mesh_poses\n"
-         "shape_msgs/Plane[] planes\ngeometry_msgs/Pose[] plane_poses\n" +
-         names + "byte ADD=0\nbyte REMOVE=1\nbyte operation\n" + kObjectTypes;
 }
 
 // Before 2020 a collision object had no pose and no frames.

@@ -84,6 +84,19 @@ TEST(PlyFacetsTest, AVertexThatNoFaceHasDoesNotCount) {
   EXPECT_EQ(readPlyFacets(withPart(five, "3 0 1 2", "nan nan nan\n3 0 1 2")), kPlyTetrahedron);
 }
 
+TEST(PlyFacetsTest, AMillionTrianglesAreTheMost) {
+  const auto polygon = [](std::uint32_t corners) {
+    std::string bytes =
+        "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty char x\nproperty char y\nproperty char z\n"
+        "element face 1\nproperty list uint uchar vertex_indices\nend_header\n" +
+        std::string(3, '\0');
+    bytes.append(reinterpret_cast<const char*>(&corners), sizeof corners);
+    return bytes + std::string(corners, '\0');
+  };
+  EXPECT_EQ(readPlyFacets(polygon(1'000'002)).size(), 1'000'000U);
+  EXPECT_EQ(refusedPly(polygon(1'000'003)), "more than a million triangles");
+}
+
 TEST(PlyFacetsTest, AreRefusedInTheTermsOfTheFile) {
   const std::string binary = binaryPly(false);
   const std::vector<std::pair<std::string, std::string>> cases = {

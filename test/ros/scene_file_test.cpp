@@ -40,8 +40,9 @@ TEST(SceneFileTest, RollPitchAndYawTurnAboutFixedAxes) {
 
 TEST(SceneFileTest, ATopicHasWhatTheSceneSaysOfIt) {
   const Scene scene = readScene(
-      "{environment: [{topic: /a}, {topic: b, id: wall, frame: map, namespaces: [x, y], hold: true, service: /s}]}");
-  ASSERT_EQ(scene.topics.size(), 2U);
+      "{environment: [{topic: /a}, {topic: b, id: wall, frame: map, namespaces: [x, y], hold: true, service: /s}, "
+      "{topic: /c, stream: true}]}");
+  ASSERT_EQ(scene.topics.size(), 3U);
   EXPECT_EQ(scene.topics[0].topic, "/a");
   EXPECT_FALSE(scene.topics[0].holds);
   EXPECT_EQ(scene.topics[1].id, "wall");
@@ -49,6 +50,8 @@ TEST(SceneFileTest, ATopicHasWhatTheSceneSaysOfIt) {
   EXPECT_EQ(scene.topics[1].namespaces, (std::set<std::string>{"x", "y"}));
   EXPECT_TRUE(scene.topics[1].holds);
   EXPECT_EQ(scene.topics[1].service, "/s");
+  EXPECT_FALSE(scene.topics[1].streams);
+  EXPECT_TRUE(scene.topics[2].streams);
   EXPECT_TRUE(scene.objects.empty());
 }
 
@@ -73,6 +76,9 @@ TEST(SceneFileTest, WhatIsWrongIsRefusedWithItsLineAndWhatIsWanted) {
       {"{a: {sphere: 1, box: [1, 1, 1]}}", "has two shapes"},
       {"{a: {sphere: 1, postion: [1, 1, 1]}}", "'postion' is unknown"},
       {"{a: {sphere: 1, scale: 2}}", "only a mesh has a scale"},
+      {"{a: {mesh: " SWEEP_GUARD_SOURCE_DIR "/test/ros/block.stl, scale: 0}}",
+       "a scale, or [x, y, z], within 1e-6 and"},
+      {"{a: {mesh: " SWEEP_GUARD_SOURCE_DIR "/test/ros/block.stl, scale: [1, .nan, 1]}}", "must be a scale"},
       {"{a: {mesh: /none.stl}}", "cannot be opened"},
       {"{a: {mesh: package://none/a.stl}}", "no package 'none'"},
       {"{a: {sphere: 1}, a: {sphere: 2}}", "this id was there before"},
@@ -85,6 +91,22 @@ TEST(SceneFileTest, WhatIsWrongIsRefusedWithItsLineAndWhatIsWanted) {
       {"/none.yaml", "/none.yaml: No such file"}};
   for (const auto& [scene, words] : cases)
     EXPECT_TRUE(has(refusalOf(scene), words)) << scene << ": " << refusalOf(scene);
+}
+
+TEST(SceneFileTest, ASceneHasAThousandWorkpiecesAtMost) {
+  std::string scene = "{";
+  for (int i = 1; i <= 1000; ++i) scene += std::to_string(i) + ": {sphere: 1}, ";
+  EXPECT_EQ(readScene(scene + "}").objects.size(), 1000U);
+  EXPECT_TRUE(has(refusalOf(scene + "more: {sphere: 1}}"), "must be a group of 1 to 1000 workpieces"));
+}
+
+TEST(SceneFileTest, AFileOfMoreThanOneMebibyteIsRefused) {
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "sweep_guard_large_scene.yaml";
+  std::ofstream(file) << "{a: {sphere: 1}}\n#" << std::string(1U << 20U, ' ');
+  EXPECT_TRUE(has(refusalOf(file.string()), "larger than 1 MiB"));
+  std::filesystem::resize_file(file, 1U << 20U);
+  EXPECT_EQ(refusalOf(file.string()), "");
+  std::filesystem::remove(file);
 }
 
 TEST(SceneFileTest, AnEmptySceneIsOne) { EXPECT_TRUE(readScene("{}").objects.empty()); }

@@ -1,14 +1,18 @@
 #!/usr/bin/env python3
 """scene_input with what other programs publish, by their definitions, and beside it a guard that gets it all."""
 import copy
+import io
 import os
 import struct
+import subprocess
 import sys
+import tempfile
 import threading
 import time
 import unittest
 
 import numpy
+import roslib.packages
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
@@ -17,6 +21,7 @@ from sensor_msgs.msg import PointCloud2, PointField
 from shape_msgs.msg import Mesh, MeshTriangle, Plane, SolidPrimitive
 from std_srvs.srv import Trigger
 from sweep_guard.msg import DeformableMesh, MeshVertices
+from sweep_guard.srv import Attach, AttachResponse
 from visualization_msgs.msg import Marker, MarkerArray
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
@@ -29,6 +34,17 @@ SCENE_TOPIC = '/move_group/monitored_planning_scene'
 PATIENCE = 30.0  # [s] longer than any load delays an answer
 TETRAHEDRON = numpy.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
 FACES = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+OTHER_PUBLISHER = '''
+import sys
+import roslib.message
+import rospy
+class Connected(rospy.SubscribeListener):
+    def peer_subscribe(self, *_):
+        print('connected', flush=True)
+rospy.init_node('other_publisher')
+rospy.Publisher(sys.argv[1], roslib.message.get_message_class(sys.argv[2]), Connected(), queue_size=1)
+rospy.spin()
+'''
 
 
 class Connected(rospy.SubscribeListener):
@@ -43,15 +59,16 @@ class Connected(rospy.SubscribeListener):
 class Workpieces:
     """What a guard knows of the workpieces from `mesh` and `mesh_vertices`, and what it says that it knows."""
 
-    def __init__(self):
+    def __init__(self, namespace=''):
         self._lock = threading.Condition()
         self._meshes = {}
         self._positions = {}
         self.confirmed = {}  # times by id
         self.deformed = {}  # numbers by id
         self.known_to_guard = set()
-        rospy.Subscriber('/mesh', DeformableMesh, self._take_mesh, tcp_nodelay=True)
-        rospy.Subscriber('/mesh_vertices', MeshVertices, self._take_vertices, tcp_nodelay=True)
+        self.left_out = {}  # what the diagnostics of a topic say
+        rospy.Subscriber(namespace + '/mesh', DeformableMesh, self._take_mesh, tcp_nodelay=True)
+        rospy.Subscriber(namespace + '/mesh_vertices', MeshVertices, self._take_vertices, tcp_nodelay=True)
         rospy.Subscriber('/diagnostics', DiagnosticArray, self._take_diagnostics)
 
     def _take_mesh(self, mesh):
@@ -74,6 +91,10 @@ class Workpieces:
 
     def _take_diagnostics(self, array):
         for line in array.status:
+            if 'scene_input: /' in line.name:
+                with self._lock:
+                    self.left_out[line.name.split(': ')[1]] = line.message
+                    self._lock.notify_all()
             if line.name.endswith('sweep_guard: workpieces'):
                 with self._lock:
                     self.known_to_guard = {value.key.strip("'") for value in line.values if value.value.startswith('revision ')}
@@ -179,14 +200,14 @@ def scene_message(step):
 class MoveGroup:
     """A stand-in that publishes its planning scene, and answers for the whole of it."""
 
-    def __init__(self, test):
+    def __init__(self, test, namespace='', topic=SCENE_TOPIC):
         self.oracle = planning_scene_oracle.Oracle(awaits_full_scene=False)
         self.asked = threading.Event()
         self.may_answer = threading.Event()
         self.may_answer.set()
         self._test = test
-        self._service = rospy.Service('/get_planning_scene', foreign_messages.moveit.GetPlanningScene, self._answer)
-        self._publisher = test.publisher(SCENE_TOPIC, foreign_messages.moveit.PlanningScene)
+        self._service = rospy.Service(namespace + '/get_planning_scene', foreign_messages.moveit.GetPlanningScene, self._answer)
+        self._publisher = test.publisher(topic, foreign_messages.moveit.PlanningScene)
 
     def _answer(self, _):
         scene = full_scene({})
@@ -212,6 +233,9 @@ class MoveGroup:
         self._publisher.publish(scene_message({'type': 'scene', 'is_diff': True, 'is_state_diff': True, 'names_joints': False,
                                                'attached': [], 'objects': [step]}))
 
+    def publish(self, message):
+        self._publisher.publish(message)
+
     def publish_filler(self, size):
         message = foreign_messages.moveit.PlanningScene(is_diff=True, name='x' * size)
         message.robot_state.is_diff = True
@@ -221,6 +245,38 @@ class MoveGroup:
         self.may_answer.set()
         self._service.shutdown()
         self._publisher.unregister()
+
+
+class StandIn:
+    """Stands in for a guard that attaches workpieces: keeps what it is asked, and answers as one that holds them."""
+
+    def __init__(self, test, namespace):
+        self._lock = threading.Condition()
+        self._held = {}
+        self.asked = []
+        service = rospy.Service(namespace + '/guard/attach', Attach, self._answer)
+        test.addCleanup(service.shutdown)
+
+    def _answer(self, request):
+        with self._lock:
+            self.asked.append((request.mesh_id, request.link if request.attach else None))
+            self._lock.notify_all()
+            if request.attach and request.mesh_id in self._held:
+                return AttachResponse(False, f"'{request.mesh_id}' is attached already: detach it first")
+            if not request.attach and request.mesh_id not in self._held:
+                return AttachResponse(False, f"'{request.mesh_id}' is not attached")
+            if request.attach:
+                self._held[request.mesh_id] = request.link
+            else:
+                del self._held[request.mesh_id]
+            return AttachResponse(True, '')
+
+    def await_asked(self, *asked):
+        """The next questions."""
+        with self._lock:
+            is_asked = self._lock.wait_for(lambda: len(self.asked) >= len(asked), PATIENCE)
+            assert is_asked and self.asked[:len(asked)] == list(asked), self.asked
+            del self.asked[:len(asked)]
 
 
 class SceneTest(unittest.TestCase):
@@ -235,6 +291,22 @@ class SceneTest(unittest.TestCase):
         self.assertTrue(listener.event.wait(PATIENCE), topic)
         return publisher
 
+    def start(self, command):
+        """Returns a process that ends with the test."""
+        process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+
+        def end():
+            process.terminate()
+            process.communicate()
+        self.addCleanup(end)
+        return process
+
+    def start_scene_input(self, namespace, scene):
+        """Starts one with topics and a guard of its own; this test hears it from now on."""
+        self.workpieces = Workpieces(namespace)
+        program, = roslib.packages.find_node('sweep_guard', 'scene_input')
+        self.start([program, '__ns:=' + namespace, '_scene:=' + scene, '_guard:=guard'])
+
     def eventually(self, happens):
         """Looks again with each message; diagnostics come once a second."""
         end = time.monotonic() + PATIENCE
@@ -244,8 +316,8 @@ class SceneTest(unittest.TestCase):
             self.workpieces.await_message()
         return True
 
-    def move_group(self):
-        move_group = MoveGroup(self)
+    def move_group(self, *args):
+        move_group = MoveGroup(self, *args)
         self.addCleanup(move_group.end)
         return move_group
 
@@ -259,6 +331,15 @@ class SceneTest(unittest.TestCase):
     def await_there(self, name):
         self.assertTrue(self.workpieces.wait(lambda: self.workpieces.is_there(name)), (name, self.workpieces.refused(name)))
         return self.workpieces.mesh(name)
+
+    def await_confirmed(self, name):
+        before = time.monotonic()
+        self.assertTrue(self.workpieces.wait(lambda: self.workpieces.confirmed.get(name, 0.0) > before), name)
+
+    def await_while_table_rests(self, seconds):
+        """Waits until the table has been confirmed so long from now."""
+        end = time.monotonic() + seconds
+        self.assertTrue(self.workpieces.wait(lambda: self.workpieces.confirmed['table'] > end))
 
     def await_gone(self, name):
         self.assertTrue(self.workpieces.wait(lambda: not self.workpieces.is_there(name) and not self.workpieces.refused(name)), name)
@@ -276,6 +357,23 @@ class SceneTest(unittest.TestCase):
             vertices = self.workpieces.vertices(name)
             return numpy.allclose(vertices.min(axis=0), low, atol=1e-5) and numpy.allclose(vertices.max(axis=0), high, atol=1e-5)
         self.assertTrue(self.workpieces.wait(fits), (name, self.workpieces.is_there(name) and self.workpieces.vertices(name)))
+
+
+class Cut:
+    """A message that is sent without its end."""
+
+    def serialize(self, buff):
+        whole = io.BytesIO()
+        super().serialize(whole)
+        buff.write(whole.getvalue()[:-1])
+
+
+class CutMesh(Cut, Mesh):
+    pass
+
+
+class CutMarker(Cut, Marker):
+    pass
 
 
 class SceneInputTest(SceneTest):
@@ -345,6 +443,27 @@ class SceneInputTest(SceneTest):
         publisher.publish(marker(Marker.CUBE, action=3))
         for name in ('a/0', 'b/0', 'd/0', 'f/0'):
             self.await_gone(name)
+
+    def test_markers_of_which_some_are_dropped_are_refused_until_their_publisher_connects_anew(self):
+        large = tempfile.NamedTemporaryFile(suffix='.ply')  # takes a while, and is refused then
+        self.addCleanup(large.close)
+        large.write(b'ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty char x\nproperty char y\nproperty char z\n'
+                    b'element face 1\nproperty list uint uchar vertex_indices\nend_header\n' + struct.pack('<3xI', 1000003) + bytes(1000003))
+        large.flush()
+        publisher = self.publisher('/markers', MarkerArray)
+        publisher.publish(MarkerArray([marker(Marker.MESH_RESOURCE, 'wall', number, mesh_resource='file://' + large.name)
+                                       for number in range(20)]))
+        for _ in range(70):
+            publisher.publish(MarkerArray([marker(Marker.ARROW, 'wall', text='x' * (4 << 20))]))  # together more than may wait
+        self.await_refused('topic /markers', 'messages come faster than they can be read')
+        self.await_refused('wall/19', 'more than a million triangles')
+        publisher.publish(MarkerArray([marker(Marker.CUBE, 'box', 3)]))
+        self.await_there('box/3')
+        self.assertIn('messages come faster', self.workpieces.refused('topic /markers'))
+        publisher.unregister()
+        self.publisher('/markers', MarkerArray).publish(MarkerArray([marker(Marker.CUBE, action=3)]))
+        self.await_gone('topic /markers')
+        self.await_gone('box/3')
 
     def test_of_an_array_the_namespaces_that_are_named_count(self):
         publisher = self.publisher('/markers', MarkerArray)
@@ -424,6 +543,96 @@ class SceneInputTest(SceneTest):
             return self.workpieces.confirmed['once'] > self.workpieces.confirmed['ends'] + 1.0
         self.assertTrue(self.workpieces.wait(only_one_is_confirmed))
 
+    def test_what_streams_ages_once_it_is_silent(self):
+        self.publisher('/streams', Mesh).publish(mesh_of(TETRAHEDRON, FACES))
+        self.await_there('streams')
+        self.await_while_table_rests(1.0)
+        self.assertNotIn('streams', self.workpieces.confirmed)
+
+    def test_when_one_of_several_publishers_ends_its_workpieces_age_until_a_message_comes(self):
+        publisher = self.publisher('/ends', Mesh)
+        other = self.start([sys.executable, '-c', OTHER_PUBLISHER, '/ends', 'shape_msgs/Mesh'])
+        self.assertEqual(other.stdout.readline(), 'connected\n')
+        publisher.publish(mesh_of(TETRAHEDRON, FACES))
+        self.await_confirmed('ends')
+        self.await_confirmed('ends')
+        other.terminate()
+        confirmed = self.workpieces.confirmed
+        self.assertTrue(self.workpieces.wait(lambda: confirmed['table'] > confirmed['ends'] + 1.0))
+        publisher.publish(mesh_of(TETRAHEDRON, FACES))
+        self.await_confirmed('ends')
+
+    def test_markers_do_not_end_while_nobody_publishes(self):
+        publisher = self.publisher('/marker', Marker)
+        publisher.publish(marker(Marker.CUBE, 'lasting', lifetime=rospy.Duration(3.0)))
+        self.await_there('lasting/0')
+        publisher.unregister()
+        self.await_while_table_rests(4.0)
+        self.assertTrue(self.workpieces.is_there('lasting/0'))
+        self.publisher('/marker', Marker)
+        self.await_gone('lasting/0')
+
+    def test_a_marker_that_cannot_be_read_refuses_the_topic_until_its_publisher_connects_anew(self):
+        publisher = self.publisher('/marker', Marker)
+        publisher.publish(CutMarker())
+        self.await_refused('topic /marker', 'message is cut off')
+        publisher.publish(marker(Marker.CUBE, 'after'))
+        self.await_there('after/0')
+        self.assertIn('message is cut off', self.workpieces.refused('topic /marker'))
+        publisher.unregister()
+        self.publisher('/marker', Marker).publish(marker(Marker.CUBE, action=3))
+        self.await_gone('topic /marker')
+        self.await_gone('after/0')
+
+    def test_a_mesh_that_cannot_be_read_refuses_the_topic_until_the_next(self):
+        publisher = self.publisher('/ends', Mesh)
+        publisher.publish(CutMesh())
+        self.await_refused('topic /ends', 'message is cut off')
+        publisher.publish(mesh_of(TETRAHEDRON, FACES))
+        self.await_gone('topic /ends')
+
+    def test_what_has_moved_is_confirmed_when_it_rests_again(self):
+        publisher = self.publisher('/mesh_without_header', Mesh)
+        publisher.publish(mesh_of(TETRAHEDRON, FACES))
+        self.deform('surface', lambda: publisher.publish(mesh_of(TETRAHEDRON + (0.0, 0.0, 4.0), FACES)))
+        self.await_confirmed('surface')
+
+    def test_an_id_that_is_no_name_is_refused(self):
+        message = foreign_messages.moveit.CollisionObject(id='', primitives=[box((0.2, 0.2, 0.2))], primitive_poses=[pose()], pose=pose())
+        message.header.frame_id = 'base'
+        self.publisher('/collision_object', foreign_messages.moveit.CollisionObject).publish(message)
+        self.await_refused('(no id)', 'its id is empty')
+
+    def test_a_scene_that_is_loaded_again_takes_the_place_of_the_one_before(self):
+        started = time.time()
+        scene = tempfile.NamedTemporaryFile('w', suffix='.yaml')
+        self.addCleanup(scene.close)
+
+        def write(text):
+            scene.seek(0)
+            scene.truncate()
+            scene.write(text)
+            scene.flush()
+        write('{a: {box: [1.0, 1.0, 1.0], open: true}, b: {sphere: 1.0}}')
+        self.start_scene_input('/loaded', scene.name)
+        self.assertTrue(self.await_there('a').open)
+        self.assertGreaterEqual(self.await_there('b').revision, int(started), 'no revision of the scene_input before')
+        load = rospy.ServiceProxy('/loaded/scene_input/load_scene', Trigger)
+        load.wait_for_service(PATIENCE)
+        write('{a: {box: [1.0, 1.0, 1.0]}, c: {sphere: 1.0}}')
+        self.assertEqual(load().message, '2 workpieces')
+        self.await_there('c')
+        self.await_gone('b')
+        self.assertTrue(self.workpieces.wait(lambda: not self.workpieces.mesh('a').open))
+        for text, why in (('{d: {sphere: 1.0}, environment: [{topic: /new}]}', 'the topics under `environment` have changed'),
+                          ('{d: {sphere: 1.0}', scene.name)):
+            write(text)
+            answer = load()
+            self.assertFalse(answer.success)
+            self.assertIn(why, answer.message)
+        self.await_confirmed('c')
+        self.assertEqual(self.workpieces.names(), ['a', 'c'])
+
     def test_an_id_that_two_sources_give_is_refused(self):
         self.await_there('table')
         publisher = self.publisher('/again', Mesh)
@@ -448,6 +657,21 @@ class SceneInputTest(SceneTest):
         self.await_bounds('a', (-0.1, -0.1, -0.1), (0.1, 0.1, 0.1))
         self.assertTrue(self.workpieces.wait(lambda: SCENE_TOPIC not in self.workpieces.refused(REFUSED_TOPICS)))
 
+    def test_after_its_publisher_has_ended_a_planning_scene_is_refused_again(self):
+        move_group = self.move_group()
+        move_group.step(full_scene({'a': (0.2, 0.2, 0.2)}))
+        self.await_confirmed('a')
+        move_group.end()
+        self.await_refused('a', 'the full planning scene is not known yet')
+        self.await_refused('topic ' + SCENE_TOPIC, 'the whole planning scene is not known')
+
+    def test_the_diagnostics_say_that_an_octomap_is_left_out(self):
+        move_group = self.move_group()
+        message = scene_message(full_scene({}))
+        message.world.octomap.octomap.data = [1]
+        move_group.publish(message)
+        self.assertTrue(self.eventually(lambda: 'an octomap is left out' in self.workpieces.left_out.get(SCENE_TOPIC, '')))
+
     def test_steps_that_are_dropped_while_it_waits_for_an_answer_are_asked_for(self):
         move_group = self.move_group()
         move_group.step(full_scene({'a': (0.2, 0.2, 0.2)}))
@@ -462,6 +686,37 @@ class SceneInputTest(SceneTest):
         self.await_topic_refused(SCENE_TOPIC, 'messages come faster than they can be read')
         move_group.may_answer.set()
         self.await_there('lost')
+
+    def hold(self):
+        """Starts a scene_input whose guard is a stand-in that holds 'held'; returns the guard, and what attaches and releases."""
+        guard = StandIn(self, '/held')
+        self.start_scene_input('/held', '{environment: [{topic: planning_scene}]}')
+        move_group = self.move_group('/held', '/held/planning_scene')
+
+        def attach(operation, link):
+            held = object_of('held', (0.2, 0.2, 0.2))
+            move_group.step({'type': 'scene', 'is_diff': True, 'is_state_diff': True, 'names_joints': False,
+                             'objects': [held] if operation == 'REMOVE' else [],
+                             'attached': [{'link': link, 'object': dict(held, operation=operation)}]})
+        move_group.step(full_scene({}))
+        self.await_gone('topic /held/planning_scene')
+        attach('ADD', 'hand')
+        guard.await_asked(('held', 'hand'))
+        self.await_there('held')
+        return guard, attach
+
+    def test_what_the_robot_takes_with_another_link_is_detached_before_and_a_guard_that_starts_is_asked_again(self):
+        guard, attach = self.hold()
+        attach('ADD', 'arm')
+        guard.await_asked(('held', None), ('held', 'arm'))
+        self.await_gone('held (held)')
+        before = self.workpieces.mesh('held (held)')
+        self.start(['rostopic', 'echo', '/held/mesh/id'])  # it may be a guard, and this one holds it already
+        guard.await_asked(('held', 'arm'))
+        self.assertTrue(self.workpieces.wait(lambda: self.workpieces.mesh('held (held)') is not before))
+        self.assertEqual(self.workpieces.refused('held (held)'), '')
+        attach('REMOVE', 'arm')
+        guard.await_asked(('held', None))
 
     def test_what_the_robot_holds_is_refused_unless_the_guard_attaches_it(self):
         move_group = self.move_group()
