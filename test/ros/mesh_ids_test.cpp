@@ -42,7 +42,7 @@ class MeshIdsTest : public NodeTest {
   }
 };
 
-TEST_F(MeshIdsTest, OneOfTwoIsNeverClearAndOthersAreNotListenedTo) {
+TEST_F(MeshIdsTest, OneOfTwoIsNeverClearAndOthersAreNotListenedToAndNamed) {
   const size_t begin = probe().warnings().size();
   placeSquare("left", {0, 0, -1});
   expectMissing("right", begin);
@@ -50,6 +50,11 @@ TEST_F(MeshIdsTest, OneOfTwoIsNeverClearAndOthersAreNotListenedTo) {
   probe().publish(squareMovedTo("ghost", {0, 0, -2}, probe().time()));
   placeSquare("right", {0, 0, -2});  // after `other`, on the same topic
   EXPECT_FALSE(known("other"));
+  for (const std::string id : {"other", "ghost"}) {
+    probe().awaitStatus("workpieces", [&](const diagnostic_msgs::DiagnosticStatus& status) {
+      return valueOf(status, "'" + id + "'") == "not heard: none of mesh_ids";
+    });
+  }
   restAt(kAway);
 }
 

@@ -70,6 +70,8 @@ TEST(SceneFileTest, AMeshIsSoughtFromTheFolderOfTheScene) {
 TEST(SceneFileTest, WhatIsWrongIsRefusedWithItsLineAndWhatIsWanted) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"{a: {box: [1, 2]}}", "'a': line 1: must be [x, y, z]"},
+      {"{a: {sphere: 1, position: [1, 1]}}", "'a': line 1: must be a position [x, y, z]"},
+      {"{a: {sphere: 1, rpy: [0, 0, 90]}}", "'a': line 1: must be the angles [roll, pitch, yaw] [rad]"},
       {"{a: {box: [1, 2, .nan]}}", "each within +-1e6"},
       {"{a: {box: [1, 2, -1]}}", "'a': "},
       {"{a: {frame: world}}", "has no shape: give it a box"},
@@ -88,7 +90,7 @@ TEST(SceneFileTest, WhatIsWrongIsRefusedWithItsLineAndWhatIsWanted) {
       {"{environment: [{topic: 'a b'}]}", "names no topic"},
       {"{environment: [{topic: /a, holds: true}]}", "'holds' is unknown"},
       {"{a: ", "scene: "},
-      {"/none.yaml", "/none.yaml: No such file"}};
+      {"none.yaml", "none.yaml: No such file or directory: give an absolute path"}};
   for (const auto& [scene, words] : cases)
     EXPECT_TRUE(has(refusalOf(scene), words)) << scene << ": " << refusalOf(scene);
 }

@@ -15,7 +15,7 @@ import rostest
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import TransformStamped
 from sweep_guard import MeshPublisher
-from sweep_guard.msg import MeshVertices, Warning
+from sweep_guard.msg import DeformableMesh, MeshVertices, Warning
 from tool_poses import publish_tool_pose
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '..', 'soak'))
@@ -94,6 +94,13 @@ class TableAndLiverTest(unittest.TestCase):
             self.assertEqual(self.await_warning(lambda one: one.level == Warning.CONTACT).mesh_id, brick)
             self.goal = BETWEEN
         self.await_warning(lambda one: one.level == Warning.CLEAR)
+
+    def test_a_guard_that_starts_is_told_that_topics_which_were_refused_before_are_not_now(self):
+        meshes = queue.Queue()
+        subscriber = rospy.Subscriber('/mesh', DeformableMesh, meshes.put)
+        self.addCleanup(subscriber.unregister)
+        told = next(mesh for mesh in iter(lambda: meshes.get(timeout=PATIENCE), None) if mesh.id == 'topics of /scene_input')
+        self.assertEqual((told.refused, len(told.mesh.triangles)), ('', 0))
 
     def test_the_diagnostics_have_the_age_and_the_rule_of_each_and_name_a_rule_without_a_workpiece(self):
         self.await_warning(lambda one: one.level == Warning.CLEAR)

@@ -364,7 +364,7 @@ TEST_F(PlanningSceneTest, ObjectsAreRefusedWhileTheFullSceneIsAwaited) {
   update(full({add("table")}, {{"hand", add("tool")}}));
   const SceneUpdate told = scene_.awaitFullScene();
   ASSERT_EQ(told.changes.size(), 2U);
-  for (const SceneChange& change : told.changes) EXPECT_TRUE(has(change.refused, "not known yet"));
+  for (const SceneChange& change : told.changes) EXPECT_TRUE(has(change.refused, "is not known"));
   const SceneUpdate known = update(full({add("table", at(1))}, {{"hand", add("tool")}}));
   for (const SceneChange& change : known.changes) EXPECT_EQ(change.refused, "");
 }
