@@ -271,6 +271,11 @@ class StandIn:
                 del self._held[request.mesh_id]
             return AttachResponse(True, '')
 
+    def await_any(self, asked):
+        """That it is asked this at some time."""
+        with self._lock:
+            assert self._lock.wait_for(lambda: asked in self.asked, PATIENCE), self.asked
+
     def await_asked(self, *asked):
         """The next questions."""
         with self._lock:
@@ -349,6 +354,10 @@ class SceneTest(unittest.TestCase):
 
     def await_topic_refused(self, topic, words):
         self.await_refused(REFUSED_TOPICS, topic + ': ' + words)
+
+    def await_topic_taken(self, topic):
+        self.assertTrue(self.workpieces.wait(lambda: f' {topic}:' not in ' ' + self.workpieces.refused(REFUSED_TOPICS)),
+                        self.workpieces.refused(REFUSED_TOPICS))
 
     def await_bounds(self, name, low, high):
         def fits():
@@ -455,14 +464,14 @@ class SceneInputTest(SceneTest):
                                        for number in range(20)]))
         for _ in range(70):
             publisher.publish(MarkerArray([marker(Marker.ARROW, 'wall', text='x' * (4 << 20))]))  # together more than may wait
-        self.await_refused('topic /markers', 'messages come faster than they can be read')
+        self.await_topic_refused('/markers', 'messages come faster than they can be read')
         self.await_refused('wall/19', 'more than a million triangles')
         publisher.publish(MarkerArray([marker(Marker.CUBE, 'box', 3)]))
         self.await_there('box/3')
-        self.assertIn('messages come faster', self.workpieces.refused('topic /markers'))
+        self.assertIn('/markers: messages come faster', self.workpieces.refused(REFUSED_TOPICS))
         publisher.unregister()
         self.publisher('/markers', MarkerArray).publish(MarkerArray([marker(Marker.CUBE, action=3)]))
-        self.await_gone('topic /markers')
+        self.await_topic_taken('/markers')
         self.await_gone('box/3')
 
     def test_of_an_array_the_namespaces_that_are_named_count(self):
@@ -575,21 +584,21 @@ class SceneInputTest(SceneTest):
     def test_a_marker_that_cannot_be_read_refuses_the_topic_until_its_publisher_connects_anew(self):
         publisher = self.publisher('/marker', Marker)
         publisher.publish(CutMarker())
-        self.await_refused('topic /marker', 'message is cut off')
+        self.await_topic_refused('/marker', 'message is cut off')
         publisher.publish(marker(Marker.CUBE, 'after'))
         self.await_there('after/0')
-        self.assertIn('message is cut off', self.workpieces.refused('topic /marker'))
+        self.assertIn('/marker: message is cut off', self.workpieces.refused(REFUSED_TOPICS))
         publisher.unregister()
         self.publisher('/marker', Marker).publish(marker(Marker.CUBE, action=3))
-        self.await_gone('topic /marker')
+        self.await_topic_taken('/marker')
         self.await_gone('after/0')
 
     def test_a_mesh_that_cannot_be_read_refuses_the_topic_until_the_next(self):
         publisher = self.publisher('/ends', Mesh)
         publisher.publish(CutMesh())
-        self.await_refused('topic /ends', 'message is cut off')
+        self.await_topic_refused('/ends', 'message is cut off')
         publisher.publish(mesh_of(TETRAHEDRON, FACES))
-        self.await_gone('topic /ends')
+        self.await_topic_taken('/ends')
 
     def test_what_has_moved_is_confirmed_when_it_rests_again(self):
         publisher = self.publisher('/mesh_without_header', Mesh)
@@ -633,6 +642,23 @@ class SceneInputTest(SceneTest):
         self.await_confirmed('c')
         self.assertEqual(self.workpieces.names(), ['a', 'c'])
 
+    def test_a_publisher_of_another_type_refuses_the_topic_until_it_ends(self):
+        self.publisher('/ends', Mesh).publish(mesh_of(TETRAHEDRON, FACES))
+        self.await_there('ends')
+        other = self.start(['rostopic', 'pub', '/ends', 'std_msgs/Empty'])
+        self.await_refused(REFUSED_TOPICS, ' sends std_msgs/Empty, other publishers shape_msgs/Mesh: give each a topic')
+        other.terminate()
+        self.await_topic_taken('/ends')
+
+    def test_a_publisher_of_another_version_is_heard_once_the_first_has_ended(self):
+        for version, name in ((foreign_messages.moveit_before_1_1, 'old'), (foreign_messages.moveit, 'new')):
+            message = version.CollisionObject(id=name, primitives=[box((0.2, 0.2, 0.2))], primitive_poses=[pose()])
+            message.header.frame_id = 'base'
+            publisher = self.publisher('/old_collision_object', version.CollisionObject)
+            publisher.publish(message)
+            self.await_there(name)
+            publisher.unregister()
+
     def test_an_id_that_two_sources_give_is_refused(self):
         self.await_there('table')
         publisher = self.publisher('/again', Mesh)
@@ -655,15 +681,15 @@ class SceneInputTest(SceneTest):
         move_group = self.move_group()
         move_group.oracle.apply(full_scene({'a': (0.2, 0.2, 0.2)}))
         self.await_bounds('a', (-0.1, -0.1, -0.1), (0.1, 0.1, 0.1))
-        self.assertTrue(self.workpieces.wait(lambda: SCENE_TOPIC not in self.workpieces.refused(REFUSED_TOPICS)))
+        self.await_topic_taken(SCENE_TOPIC)
 
     def test_after_its_publisher_has_ended_a_planning_scene_is_refused_again(self):
         move_group = self.move_group()
         move_group.step(full_scene({'a': (0.2, 0.2, 0.2)}))
         self.await_confirmed('a')
         move_group.end()
-        self.await_refused('a', 'the full planning scene is not known yet')
-        self.await_refused('topic ' + SCENE_TOPIC, 'the whole planning scene is not known')
+        self.await_refused('a', 'the whole planning scene is not known')
+        self.await_topic_refused(SCENE_TOPIC, 'the whole planning scene is not known')
 
     def test_the_diagnostics_say_that_an_octomap_is_left_out(self):
         move_group = self.move_group()
@@ -699,7 +725,7 @@ class SceneInputTest(SceneTest):
                              'objects': [held] if operation == 'REMOVE' else [],
                              'attached': [{'link': link, 'object': dict(held, operation=operation)}]})
         move_group.step(full_scene({}))
-        self.await_gone('topic /held/planning_scene')
+        self.await_gone('topics of /held/scene_input')
         attach('ADD', 'hand')
         guard.await_asked(('held', 'hand'))
         self.await_there('held')
@@ -717,6 +743,13 @@ class SceneInputTest(SceneTest):
         self.assertEqual(self.workpieces.refused('held (held)'), '')
         attach('REMOVE', 'arm')
         guard.await_asked(('held', None))
+
+    def test_what_the_robot_releases_just_after_a_guard_has_started_is_detached(self):
+        guard, attach = self.hold()
+        listener = self.start(['rostopic', 'echo', '/held/mesh/id'])
+        self.assertTrue(listener.stdout.readline())  # what the guard is asked again comes at most half a second later
+        attach('REMOVE', 'hand')
+        guard.await_any(('held', None))
 
     def test_what_the_robot_holds_is_refused_unless_the_guard_attaches_it(self):
         move_group = self.move_group()

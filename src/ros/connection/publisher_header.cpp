@@ -1,6 +1,7 @@
 #include "ros/connection/publisher_header.h"
 
 #include <ros/header.h>
+#include <ros/master.h>
 #include <ros/this_node.h>
 
 #include <boost/asio/ip/tcp.hpp>
@@ -37,19 +38,39 @@ std::optional<ros::M_string> exchangeHeaders(const std::string& host, int port, 
 
 }  // namespace
 
+std::optional<ros::M_string> publisherHeader(const XmlRpcCall& call, const std::string& topic,
+                                             const std::string& publisher) {
+  XmlRpc::XmlRpcValue protocols;
+  protocols[0][0] = "TCPROS";
+  const auto answer = call.call(publisher, "requestTopic", {XmlRpc::XmlRpcValue(topic), protocols});
+  if (!answer || !answer->success) return std::nullopt;
+  const std::string& host = answer->value[1];
+  const int port = answer->value[2];
+  return exchangeHeaders(host, port,
+                         {{"callerid", ros::this_node::getName()}, {"topic", topic}, {"type", "*"}, {"md5sum", "*"}});
+}
+
 std::optional<ros::M_string> publisherHeader(const XmlRpcCall& call, const std::string& topic) {
   const auto publishers = connectedPublishers(call);
   if (!publishers || publishers->count(topic) == 0) return std::nullopt;
-  XmlRpc::XmlRpcValue protocols;
-  protocols[0][0] = "TCPROS";
   for (const std::string& publisher : publishers->at(topic)) {
-    auto answer = call.call(publisher, "requestTopic", {XmlRpc::XmlRpcValue(topic), protocols});
-    if (!answer || !answer->success) continue;
-    const std::string& host = answer->value[1];
-    const int port = answer->value[2];
-    auto header = exchangeHeaders(
-        host, port, {{"callerid", ros::this_node::getName()}, {"topic", topic}, {"type", "*"}, {"md5sum", "*"}});
-    if (header) return header;
+    if (auto header = publisherHeader(call, topic, publisher)) return header;
+  }
+  return std::nullopt;
+}
+
+std::optional<ros::M_string> unconnectedHeader(const XmlRpcCall& call, const std::string& topic,
+                                               const std::string& md5) {
+  const auto nodes = registeredPublishers(call, topic);
+  auto connected = connectedPublishers(call);
+  if (!nodes || !connected || nodes->size() <= (*connected)[topic].size()) return std::nullopt;
+  for (const std::string& node : *nodes) {
+    const auto address = call.call(ros::master::getURI(), "lookupNode", {XmlRpc::XmlRpcValue(node)});
+    if (!address || !address->success) continue;
+    const std::string& publisher = address->value;
+    if ((*connected)[topic].count(publisher) != 0) continue;
+    auto header = publisherHeader(call, topic, publisher);
+    if (header && (*header)["md5sum"] != md5) return header;
   }
   return std::nullopt;
 }

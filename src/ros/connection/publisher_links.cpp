@@ -2,6 +2,7 @@
 
 #include <netinet/in.h>
 #include <poll.h>
+#include <ros/master.h>
 #include <ros/xmlrpc_manager.h>
 #include <sys/socket.h>
 
@@ -68,6 +69,20 @@ std::optional<PublishersOfTopics> connectedPublishers(const XmlRpcCall& call) {
   auto links = publisherLinks(call);
   if (!links) return std::nullopt;
   return std::move(links->all);
+}
+
+std::optional<std::vector<std::string>> registeredPublishers(const XmlRpcCall& call, const std::string& topic) {
+  const auto state = call.call(ros::master::getURI(), "getSystemState", {});
+  if (!state || !state->success) return std::nullopt;
+  std::vector<std::string> publishers;
+  const XmlRpcValue& topics = state->value[0];
+  for (int i = 0; i < topics.size(); ++i) {
+    const std::string& name = topics[i][0];
+    if (name != topic) continue;
+    const XmlRpcValue& nodes = topics[i][1];
+    for (int j = 0; j < nodes.size(); ++j) publishers.push_back(nodes[j]);
+  }
+  return publishers;
 }
 
 bool updatePublishers(const XmlRpcCall& call, const std::string& topic, const Publishers& added,

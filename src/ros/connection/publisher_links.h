@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "ros/connection/xml_rpc_call.h"
 
@@ -26,6 +27,11 @@ struct PublisherLinks {
 std::optional<PublisherLinks> publisherLinks(const XmlRpcCall& call);
 /// Returns PublisherLinks::all.
 std::optional<PublishersOfTopics> connectedPublishers(const XmlRpcCall& call);
+
+/// Asks the master for the nodes that publish a topic.
+/// @returns empty optional: no answer
+/// @throws XmlRpc::XmlRpcException if the answer cannot be read
+std::optional<std::vector<std::string>> registeredPublishers(const XmlRpcCall& call, const std::string& topic);
 
 /// Connects a topic to some publishers and disconnects it from others; all other connections stay. roscpp takes a list
 /// of publishers as complete, so the connections are read immediately before. A publisher that another node announces

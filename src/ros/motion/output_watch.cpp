@@ -1,29 +1,17 @@
 #include "ros/motion/output_watch.h"
 
 #include <ros/console.h>
-#include <ros/master.h>
 #include <ros/this_node.h>
 
 #include <utility>
 
+#include "ros/connection/publisher_links.h"
 #include "sweep_guard/common/printable.h"
 
 namespace sweep_guard_ros {
 namespace {
 
 constexpr auto kPeriod = std::chrono::seconds(1);
-
-// Throws XmlRpcException if the master answers with something else.
-std::vector<std::string> publishersIn(const XmlRpc::XmlRpcValue& system_state, const std::string& topic) {
-  std::vector<std::string> publishers;
-  const XmlRpc::XmlRpcValue& topics = system_state[0];
-  for (int i = 0; i < topics.size(); ++i) {
-    if (static_cast<const std::string&>(topics[i][0]) != topic) continue;
-    const XmlRpc::XmlRpcValue& nodes = topics[i][1];
-    for (int j = 0; j < nodes.size(); ++j) publishers.push_back(nodes[j]);
-  }
-  return publishers;
-}
 
 }  // namespace
 
@@ -42,11 +30,11 @@ std::vector<std::string> OutputWatch::otherPublishers() const {
 }
 
 void OutputWatch::check() {
-  const auto state = call_.call(ros::master::getURI(), "getSystemState", {});
-  if (!state || !state->success) return;
   try {
+    const auto publishers = registeredPublishers(call_, topic_);
+    if (!publishers) return;
     std::vector<std::string> others;
-    for (const std::string& node : publishersIn(state->value, topic_)) {
+    for (const std::string& node : *publishers) {
       if (node != ros::this_node::getName()) others.push_back(sweep_guard_core::printable(node));
     }
     const sweep_guard_core::Lock lock(mutex_);

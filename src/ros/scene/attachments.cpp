@@ -32,11 +32,13 @@ bool Attachments::setLink(const std::string& id, const std::string& link) {
   } else {
     wanted_[id] = link;
   }
-  return holds(done_, id, link);
+  return holds(done_, id, link) && (!link.empty() || doubted_.count(id) == 0);
 }
 
+// It may be another guard, or somebody else beside the one that holds them.
 void Attachments::beginAnew() {
   const sweep_guard_core::Lock lock(mutex_);
+  doubted_.insert(done_.begin(), done_.end());
   done_.clear();
 }
 
@@ -44,13 +46,16 @@ void Attachments::beginAnew() {
 void Attachments::exchange() {
   Links wanted;
   Links done;
+  Links held;  // maybe
   {
     const sweep_guard_core::Lock lock(mutex_);
     wanted = wanted_;
     done = done_;
+    held = doubted_;
   }
-  for (const auto& [id, link] : done) {
-    if (!holds(wanted, id, link)) detach(id);
+  held.insert(done.begin(), done.end());
+  for (const auto& [id, link] : held) {
+    if (!holds(wanted, id, link) && !detach(id)) wanted.erase(id);
   }
   for (const auto& [id, link] : wanted) {
     if (done.count(id) == 0) attach(id, link);
@@ -63,17 +68,22 @@ void Attachments::attach(const std::string& id, const std::string& link) {
   if (why.empty()) {
     const sweep_guard_core::Lock lock(mutex_);
     done_[id] = link;
+    doubted_.erase(id);
   }
   report_(id, why.empty() ? "" : "held by the link '" + link + "', and not attached: " + why);
 }
 
-void Attachments::detach(const std::string& id) {
-  const std::string why = ask(id, "");
+// Returns whether it is done.
+bool Attachments::detach(const std::string& id) {
+  std::string why = ask(id, "");
+  if (why.find("is not attached") != std::string::npos) why.clear();  // by a guard that is new
   if (why.empty()) {
     const sweep_guard_core::Lock lock(mutex_);
     done_.erase(id);
+    doubted_.erase(id);
   }
   report_(id, why.empty() ? "" : "not detached: " + why);
+  return why.empty();
 }
 
 // Returns why the guard has not done it.

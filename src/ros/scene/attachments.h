@@ -36,7 +36,7 @@ class Attachments {
 
   void exchange();
   void attach(const std::string& id, const std::string& link);
-  void detach(const std::string& id);
+  bool detach(const std::string& id);
   std::string ask(const std::string& id, const std::string& link);
 
   const Report report_;
@@ -44,6 +44,7 @@ class Attachments {
   sweep_guard_core::Mutex mutex_;
   Links wanted_ GUARDED_BY(mutex_);
   Links done_ GUARDED_BY(mutex_);
+  Links doubted_ GUARDED_BY(mutex_);  // what was done by a guard that may have ended since
   TimerThread thread_;
 };
 

@@ -74,9 +74,17 @@ EnvironmentSource::EnvironmentSource(const ros::NodeHandle& node, QueueThread& r
       apply_(std::move(apply)),
       refuse_(std::move(refuse)),
       node_(node),
-      worker_(kMaxWaiting),
-      subscriber_(subscribeRaw(receiving.on(node), topic_.topic, kMessagesQueued,
-                               [this](const RawMessage& message) { push(message); })) {}
+      receiving_(receiving),
+      worker_(kMaxWaiting) {
+  subscribe();
+}
+
+// Anew: roscpp keeps a topic to the definition of its first publisher.
+void EnvironmentSource::subscribe() {
+  subscriber_ = {};
+  subscriber_ = subscribeRaw(receiving_.on(node_), topic_.topic, kMessagesQueued,
+                             [this](const RawMessage& message) { push(message); });
+}
 
 void EnvironmentSource::start(Supervisor& supervisor) {
   worker_.start(supervisor, {"environment", sweep_guard_core::Stage::kReceive, /*watched=*/false});
@@ -195,7 +203,7 @@ void EnvironmentSource::read(Wire bytes, sweep_guard_core::Time now) {
   is_known_ = true;
   if (needs_full_scene_) return;
   if (reader_->isComplete()) has_lost_ = false;
-  if (!has_lost_) endRefusal();
+  if (!has_lost_ && !has_other_) endRefusal();
 }
 
 void EnvironmentSource::report(SceneUpdate update) {
@@ -216,6 +224,7 @@ bool EnvironmentSource::tick(const Publishers& publishers) {
     restarts_ = true;
   }
   publishers_ = publishers;
+  if (has_publisher_ && publishers.empty()) receiving_.post([this] { subscribe(); });
   has_publisher_ = !publishers.empty();
   const bool waits = tick_pending_.exchange(true);
   if (!waits) {
@@ -242,7 +251,19 @@ void EnvironmentSource::checkTopic() {
     if (type.empty()) return refuse("nobody has published it yet");
     begin(type);
   }
+  if (definition_) checkOthers();
   if (needs_full_scene_) requestFullScene();
+}
+
+void EnvironmentSource::checkOthers() {
+  const auto other = unconnectedHeader(call_, topic_.topic, md5_);
+  if (other) {
+    const std::string type = entryOf(*other, "type");
+    refuse(printable(entryOf(*other, "callerid")) + " sends " + (type == state().type ? "another version of " : "") +
+           printable(type) + ", other publishers " + state().type + ": give each a topic");
+  }
+  const bool had_other = std::exchange(has_other_, other.has_value());
+  if (had_other && !has_other_ && !has_lost_ && !needs_full_scene_) endRefusal();
 }
 
 // Messages that come meanwhile wait, and are read after the answer.

@@ -58,7 +58,9 @@ class EnvironmentSource {
   void drop();
   void receive(const Bytes& bytes, const boost::shared_ptr<ros::M_string>& header);
   void makeUpForDropped();
+  void subscribe();
   void checkTopic();
+  void checkOthers();
   void begin(const std::string& type);
   void open(const ros::M_string& header);
   void read(Wire bytes, sweep_guard_core::Time now);
@@ -79,7 +81,8 @@ class EnvironmentSource {
   std::optional<MessageDefinition> definition_;
   std::unique_ptr<SceneReader> reader_;
   bool needs_full_scene_ = false;
-  bool has_lost_ = false;  // a message, and none since has made up for it
+  bool has_lost_ = false;   // a message, and none since has made up for it
+  bool has_other_ = false;  // a publisher whose messages have another definition
   int ticks_ = 0;
   Publishers publishers_;                    // at the last tick(), whose thread alone uses it
   std::atomic<bool> has_publisher_ = false;  // at the last tick()
@@ -89,6 +92,7 @@ class EnvironmentSource {
   std::atomic<bool> has_dropped_ = false;
   mutable sweep_guard_core::Mutex mutex_;
   State state_ GUARDED_BY(mutex_);
+  QueueThread& receiving_;
   Worker worker_;
   ros::Subscriber subscriber_;
 };
