@@ -57,7 +57,7 @@ class WireStream {
     if constexpr (ros::message_traits::IsFixedSize<Element>::value) {
       passed_ += count * smallest;
     } else {
-      const Element& element = example<Element>();
+      const auto& element = example<Element>();
       for (; count > 0; --count) next(element);
     }
   }

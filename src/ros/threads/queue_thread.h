@@ -17,7 +17,7 @@ namespace sweep_guard_ros {
 class QueueThread : private ros::CallbackQueue {
  public:
   QueueThread() = default;
-  ~QueueThread() { stop(); }
+  ~QueueThread() override { stop(); }
   QueueThread(const QueueThread&) = delete;
   QueueThread& operator=(const QueueThread&) = delete;
 
