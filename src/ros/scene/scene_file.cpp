@@ -61,8 +61,8 @@ Eigen::Vector3d vectorOf(const YAML::Node& node, const char* wanted) {
 Eigen::Vector3d scaleOf(const YAML::Node& node) {
   if (!node) return Eigen::Vector3d::Ones();
   const std::string wanted = "a scale, or [x, y, z]";
-  const Eigen::Vector3d scale = node.IsSequence() ? Eigen::Vector3d(numbers<3>(node, wanted).data())
-                                                  : Eigen::Vector3d::Constant(as<double>(node, wanted));
+  Eigen::Vector3d scale = node.IsSequence() ? Eigen::Vector3d(numbers<3>(node, wanted).data())
+                                            : Eigen::Vector3d::Constant(as<double>(node, wanted));
   if (!(scale.cwiseAbs().minCoeff() >= 1e-6 && scale.cwiseAbs().maxCoeff() <= 1e6))
     refuse(node, "must be " + wanted + ", within 1e-6 and 1e6");
   return scale;

@@ -165,7 +165,8 @@ void SceneInputNode::refuseTopic(const std::string& topic, const std::string& wh
   refused_topics_.erase(topic);
   if (!why.empty()) refused_topics_.emplace(topic, why);
   std::string all;
-  for (const auto& [name, reason] : refused_topics_) all += (all.empty() ? "" : "; ") + name + ": " + reason;
+  for (const auto& [name, reason] : refused_topics_)
+    all.append(all.empty() ? "" : "; ").append(name).append(": ").append(reason);
   if (all.empty()) return workpieces_.withdraw(topics_id_);
   workpieces_.refuse(topics_id_, all);
 }
