@@ -18,7 +18,7 @@ const std::vector<RemainingTriangle>& Culler::cull(const Submesh& submesh, const
   if (submesh.empty() || whollyBeyond(submesh.mesh_M(), planes)) return remaining_;
   findClusters(submesh, planes);
   for (const std::uint32_t block : blocks_) classifyBlock(submesh, planes, block);
-  for (const Cluster* cluster : clusters_) cullCluster(submesh.mesh_M().order(), *cluster);
+  for (const Cluster* cluster : clusters_) cullCluster(submesh.mesh_M(), *cluster);
   return remaining_;
 }
 
@@ -32,7 +32,7 @@ bool Culler::leavesAny(const Submesh& submesh, const simd::Planes& planes) {
     for (const std::uint32_t block : cluster.blocks) {
       if (bits_.firstAsked(block)) classifyBlock(submesh, planes, block);
     }
-    any = (classified(submesh.mesh_M().order(), cluster).not_beyond & cluster.all()) != 0;
+    any = (classified(submesh.mesh_M().order(), cluster).not_beyond & submesh.mesh_M().existing(cluster)) != 0;
   });
   return any;
 }
@@ -65,9 +65,10 @@ simd::TriangleBits Culler::classified(const MeshOrder& order, const Cluster& clu
   return kernels_->classifyTriangles(order.corners[cluster.number], {bits(0), bits(1), bits(2), bits(3)});
 }
 
-void Culler::cullCluster(const MeshOrder& order, const Cluster& cluster) {
+void Culler::cullCluster(const TriangleMesh& mesh_M, const Cluster& cluster) {
+  const MeshOrder& order = mesh_M.order();
   const simd::TriangleBits found = classified(order, cluster);
-  for (std::uint64_t left = found.not_beyond & cluster.all(); left != 0; left &= left - 1) {
+  for (std::uint64_t left = found.not_beyond & mesh_M.existing(cluster); left != 0; left &= left - 1) {
     const auto i = static_cast<std::uint32_t>(__builtin_ctzll(left));
     const std::uint32_t place = cluster.first + i;
     remaining_.push_back(

@@ -32,7 +32,7 @@ class Culler {
   void findClusters(const Submesh& submesh, const simd::Planes& planes);
   void classifyBlock(const Submesh& submesh, const simd::Planes& planes, std::uint32_t block);
   simd::TriangleBits classified(const MeshOrder& order, const Cluster& cluster) const;
-  void cullCluster(const MeshOrder& order, const Cluster& cluster);
+  void cullCluster(const TriangleMesh& mesh_M, const Cluster& cluster);
 
   const simd::Kernels* kernels_;
   BlockBits bits_;

@@ -157,6 +157,17 @@ bool hasMuchFewer(const std::vector<Cluster>& clusters, const std::vector<Cluste
   return muchLess(static_cast<double>(clusters.size()), static_cast<double>(others.size()));
 }
 
+void addCorners(const std::vector<Triangle>& corners, MeshOrder& order) {
+  order.corners.reserve(order.clusters.size());
+  for (const Cluster& cluster : order.clusters) order.corners.push_back(clusterCorners(cluster, corners));
+  order.groups = groupsOf(order.clusters);
+}
+
+void addBlocks(size_t vertices, MeshOrder& order) {
+  order.blocks.resize((vertices + simd::kBlock - 1) / simd::kBlock);
+  std::iota(order.blocks.begin(), order.blocks.end(), 0U);
+}
+
 // Orders the triangles, whose corners are at these places.
 MeshOrder orderAt(std::vector<std::uint32_t> vertex_places, const std::vector<Triangle>& triangles) {
   MeshOrder order;
@@ -174,9 +185,7 @@ MeshOrder orderAt(std::vector<std::uint32_t> vertex_places, const std::vector<Tr
     order.clusters = std::move(clusters);
     corners = std::move(in_order);
   }
-  order.corners.reserve(order.clusters.size());
-  for (const Cluster& cluster : order.clusters) order.corners.push_back(clusterCorners(cluster, corners));
-  order.groups = groupsOf(order.clusters);
+  addCorners(corners, order);
   return order;
 }
 
@@ -198,8 +207,15 @@ MeshOrder betterOrder(const std::vector<float>& positions, const std::vector<Tri
 
 MeshOrder orderOf(const std::vector<float>& positions, const std::vector<Triangle>& triangles) {
   MeshOrder order = betterOrder(positions, triangles);
-  order.blocks.resize((positions.size() / 3 + simd::kBlock - 1) / simd::kBlock);
-  std::iota(order.blocks.begin(), order.blocks.end(), 0U);
+  addBlocks(positions.size() / 3, order);
+  return order;
+}
+
+MeshOrder sendersOrder(size_t vertices, const std::vector<Triangle>& triangles) {
+  MeshOrder order;
+  order.clusters = clustersOf(triangles);
+  addCorners(triangles, order);
+  addBlocks(vertices, order);
   return order;
 }
 

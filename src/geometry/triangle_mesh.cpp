@@ -1,12 +1,14 @@
 #include "sweep_guard/geometry/triangle_mesh.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <string>
 
 #include "common/xyz.h"
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/geometry/grid.h"
 
 namespace sweep_guard_core {
 namespace {
@@ -77,6 +79,16 @@ TriangleMesh::TriangleMesh(const std::vector<Eigen::Vector3d>& vertices_M, std::
   exchange(sent);
 }
 
+TriangleMesh::TriangleMesh(const Grid& grid) {
+  std::vector<Triangle> triangles = grid.triangles();
+  MeshOrder order = sendersOrder(grid.places(), triangles);
+  existing_.assign(order.clusters.size(), 0);
+  topology_ = std::make_shared<const Topology>(
+      Topology{std::move(triangles), /*is_sheet=*/true, Enclosure(), std::move(order)});
+  std::vector<float> sent(3 * grid.places(), 0.0F);
+  exchange(sent);
+}
+
 // Takes the offsets in the sender's order and returns the previous ones in the buffer. Returns false and changes
 // nothing if an offset is unusable.
 bool TriangleMesh::exchange(std::vector<float>& sent) {
@@ -112,6 +124,12 @@ void TriangleMesh::deform(std::vector<float>& positions_M) {
   origin_.setZero();
   const Eigen::AlignedBox3d& bounds = blocks_.bounds();
   rounding_ = float32Rounding(bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs()));
+}
+
+void TriangleMesh::deform(std::vector<float>& places_M, std::vector<std::uint64_t>& existing) {
+  deform(places_M);
+  assert(existing.size() == existing_.size());
+  existing_.swap(existing);
 }
 
 }  // namespace sweep_guard_core

@@ -106,7 +106,7 @@ size_t PieceCover::selectPlanes(const CenteredBox& box, simd::Planes& planes, Pl
 PieceCover::Classified PieceCover::classify(const Cluster& cluster, const CenteredBox& box) const {
   simd::Planes planes;
   PlaneNumbers selected;
-  Classified classified{cluster.all(), 0, {}, selectPlanes(box, planes, selected)};
+  Classified classified{mesh_M_->existing(cluster), 0, {}, selectPlanes(box, planes, selected)};
   const unsigned covering = (1U << planes.count) - 1U;
   if (nearest_ && nearest_->mayStand(box)) {
     addTurned(nearest_->normal_M, nearest_->offset, mesh_M_->radius(), planes);
@@ -121,7 +121,7 @@ PieceCover::Classified PieceCover::classify(const Cluster& cluster, const Center
   const simd::ClusterCorners& corners = mesh_M_->order().corners[cluster.number];
   classified.nearer &= simd::kernels().classifyTriangles(corners, {of(0), of(1), of(2), of(3)}).not_beyond;
   unsigned standing = 0;
-  for (std::uint64_t left = cluster.all() & ~classified.nearer; left != 0; left &= left - 1) {
+  for (std::uint64_t left = mesh_M_->existing(cluster) & ~classified.nearer; left != 0; left &= left - 1) {
     const auto i = static_cast<size_t>(__builtin_ctzll(left));
     const auto& [a, b, c] = corners;
     const unsigned behind = bits[a[i]] & bits[b[i]] & bits[c[i]] & covering;

@@ -35,12 +35,13 @@ class Submesh {
   /// Returns the groups of clusters of a whole mesh; null for a submesh from a SubmeshFinder.
   const std::vector<ClusterGroup>* groups() const { return groups_; }
 
-  /// Calls a function with the index in mesh_M().triangles() of each triangle, once, in no particular order.
+  /// Calls a function with the index in mesh_M().triangles() of each triangle that exists, once, in no particular order.
   template <typename Function>
   void forEachTriangle(const Function& function) const {
     const std::vector<std::uint32_t>& triangle_at = mesh_M_->order().triangle_at;
     for (const Cluster& cluster : *clusters_) {
-      for (std::uint32_t place = cluster.first; place < cluster.first + cluster.count; ++place) {
+      for (std::uint64_t left = mesh_M_->existing(cluster); left != 0; left &= left - 1) {
+        const std::uint32_t place = cluster.first + static_cast<std::uint32_t>(__builtin_ctzll(left));
         function(triangle_at.empty() ? place : triangle_at[place]);
       }
     }
@@ -66,14 +67,15 @@ class BlockBits {
   /// @param planes  relative to mesh_M().origin()
   void classify(const Submesh& submesh, const simd::Planes& planes);
 
-  /// Calls a function with each cluster of the submesh, except clusters whose blocks all lie beyond the same plane.
+  /// Calls a function with each cluster of the submesh, except clusters whose blocks all lie beyond the same plane, and those
+  /// without a triangle that exists.
   /// @param submesh  the one of the last classify(); not checked
   template <typename Function>
   void forEachRemaining(const Submesh& submesh, const Function& function) const {
     const auto consider = [&](size_t first, size_t count) {
       for (size_t i = first; i < first + count; ++i) {
         const Cluster& cluster = submesh.clusters()[i];
-        if (!beyondOnePlane(bits_, cluster.blocks)) function(cluster);
+        if (!beyondOnePlane(bits_, cluster.blocks) && submesh.mesh_M().existing(cluster) != 0) function(cluster);
       }
     };
     if (submesh.groups() == nullptr) return consider(0, submesh.clusters().size());

@@ -61,6 +61,11 @@ struct MeshOrder {
 /// @throws InvalidInput if the environment variable SWEEP_GUARD_SIMD is wrong (simd::kernels())
 MeshOrder orderOf(const std::vector<float>& positions, const std::vector<Triangle>& triangles);
 
+/// Returns the order of triangles whose vertices and triangles stay in the sender's order.
+/// @param vertices   their number, > 0
+/// @param triangles  as above
+MeshOrder sendersOrder(size_t vertices, const std::vector<Triangle>& triangles);
+
 /// Copies positions from the sender's order to their places.
 /// @param places     MeshOrder::vertex_places; if it is empty, nothing is copied
 /// @param sent       x0 y0 z0 x1 ... of as many vertices as there are places

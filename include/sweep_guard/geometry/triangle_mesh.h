@@ -24,6 +24,8 @@ constexpr double kMaxSentRounding = 0.01;
 /// @param largest  largest absolute coordinate on each axis [m]
 double float32Rounding(const Eigen::Vector3d& largest);
 
+class Grid;
+
 /// A checked triangle mesh at one time, in its frame M. Stores vertices as float32 offsets from an origin; rounding()
 /// bounds the error. Keeps degenerate triangles and unused vertices, because they may be a wire or a tip. All indices
 /// are those given to the constructor (the sender's), except in places(), order() and blocks().
@@ -40,6 +42,9 @@ class TriangleMesh {
   /// `rounded` comes after `is_sheet`.
   TriangleMesh(const std::vector<Eigen::Vector3d>&, std::vector<Triangle>, double) = delete;
 
+  /// Makes the mesh of a grid, of which no triangle exists yet. It is a sheet.
+  explicit TriangleMesh(const Grid& grid);
+
   /// Grows margin() by this: the surface counts as nearer by so much, whatever the tool. deform() keeps it.
   /// @param padding  [m], >= 0; not checked
   void pad(double padding) { padding_ = padding; }
@@ -52,10 +57,21 @@ class TriangleMesh {
   ///                             same size with unspecified contents
   /// @throws InvalidInput for a wrong count or an invalid coordinate; mesh and positions do not change
   void deform(std::vector<float>& positions_M);
+  /// Replaces the positions of all vertices of a grid, and says which of its triangles exist. Exchanges buffers and allocates
+  /// nothing.
+  /// @param[in,out] places_M  as in deform(), at the places of the grid
+  /// @param[in,out] existing  for each cluster the bits of its triangles that exist; on return another such buffer
+  /// @throws InvalidInput as deform() does
+  void deform(std::vector<float>& places_M, std::vector<std::uint64_t>& existing);
   /// @throws InvalidInput if these are not three coordinates per vertex
   void checkCount(const std::vector<float>& positions_M) const;
 
   const std::vector<Triangle>& triangles() const { return topology_->triangles; }
+  /// Returns the bits of the triangles of a cluster that exist: all, but in a grid.
+  /// @param cluster  of this mesh, or of a submesh of it
+  std::uint64_t existing(const Cluster& cluster) const {
+    return existing_.empty() ? cluster.all() : existing_[cluster.number];
+  }
   /// Returns triangles(), which stay the same object for all deformations and copies.
   std::shared_ptr<const std::vector<Triangle>> sharedTriangles() const { return {topology_, &topology_->triangles}; }
   /// Returns what the surface encloses: of a sheet nothing.
@@ -111,6 +127,7 @@ class TriangleMesh {
   std::shared_ptr<const Topology> topology_;  // shared by all deformations
   std::vector<float> offsets_;                // at their places
   std::vector<float> spare_;                  // only if the vertices are renumbered
+  std::vector<std::uint64_t> existing_;       // of each cluster; empty: all
   VertexBlocks blocks_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   double radius_ = 0.0;

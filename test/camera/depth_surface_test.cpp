@@ -1,0 +1,212 @@
+#include "camera/depth_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "allocations.h"
+#include "detection/exact_oracle.h"
+#include "refusal.h"
+#include "scenes.h"
+#include "sweep_guard/detection/detector.h"
+#include "sweep_guard/geometry/triangle_mesh.h"
+
+namespace sweep_guard_core {
+namespace {
+
+constexpr std::uint32_t kWidth = 53;
+constexpr std::uint32_t kHeight = 38;
+constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+const Pinhole kCamera{60.0, 58.0, 25.7, 18.2};
+const DepthOptions kExact{0.1, 4.0, {0.0, 0.0}};
+
+std::vector<float> wall(float depth) { return std::vector<float>(kWidth * kHeight, depth); }
+
+float& at(std::vector<float>& depths, std::uint32_t column, std::uint32_t row) { return depths[row * kWidth + column]; }
+
+Eigen::Vector3d onRay(std::uint32_t column, std::uint32_t row, double depth) {
+  return {depth * (column - kCamera.cx) / kCamera.fx, depth * (row - kCamera.cy) / kCamera.fy, depth};
+}
+
+class DepthSurfaceTest : public testing::Test {
+ protected:
+  TriangleMesh take(const std::vector<float>& depths, const Eigen::Isometry3d& X_FC = Eigen::Isometry3d::Identity(),
+                    const DepthOptions& options = kExact) {
+    DepthSurface surface(grid_, kCamera, options);
+    surface.take(depths, X_FC);
+    TriangleMesh mesh_F(grid_);
+    mesh_F.deform(surface.places_F(), surface.existing());
+    return mesh_F;
+  }
+
+  static std::set<std::set<std::uint32_t>> trianglesOf(const TriangleMesh& mesh) {
+    std::set<std::set<std::uint32_t>> all;
+    Submesh(mesh).forEachTriangle([&](std::uint32_t i) {
+      const Triangle& triangle = mesh.triangles()[i];
+      all.insert({triangle.begin(), triangle.end()});
+    });
+    return all;
+  }
+
+  const Grid grid_{kWidth, kHeight};
+};
+
+TEST_F(DepthSurfaceTest, EachPixelLiesOnItsRayInTheFrameOfTheSurface) {
+  Random random(1);
+  const Eigen::Isometry3d X_FC = random.pose({0.3, -1.2, 2.0});
+  std::vector<float> depths = wall(0.0F);
+  for (float& depth : depths) depth = static_cast<float>(random.uniform(0.2, 3.9));
+  const TriangleMesh mesh_F = take(depths, X_FC);
+  for (std::uint32_t row = 0; row < kHeight; ++row) {
+    for (std::uint32_t column = 0; column < kWidth; ++column) {
+      const Eigen::Vector3d expected = X_FC * onRay(column, row, double{at(depths, column, row)});
+      EXPECT_LE((mesh_F.vertex(grid_.place(column, row)) - expected).norm(), mesh_F.rounding() + 1e-12);
+    }
+  }
+}
+
+TEST_F(DepthSurfaceTest, AMarginBringsASurfaceNearerAlongItsRay) {
+  const TriangleMesh mesh_F = take(wall(2.0F), Eigen::Isometry3d::Identity(), {0.1, 4.0, {0.01, 0.005}});
+  for (const auto& [column, row] : {std::pair(0U, 0U), {26U, 18U}, {52U, 37U}}) {
+    const Eigen::Vector3d far = onRay(column, row, 2.0);
+    const Eigen::Vector3d near = mesh_F.vertex(grid_.place(column, row));
+    EXPECT_NEAR((far - near).norm(), 0.03, 1e-6);
+    EXPECT_NEAR(near.normalized().dot(far.normalized()), 1.0, 1e-9);
+  }
+}
+
+TEST_F(DepthSurfaceTest, EveryTriangleOfAWallExistsOnce) {
+  const TriangleMesh mesh_F = take(wall(1.0F));
+  size_t count = 0;
+  Submesh(mesh_F).forEachTriangle([&](std::uint32_t /*i*/) { ++count; });
+  EXPECT_EQ(count, 2U * (kWidth - 1) * (kHeight - 1));
+  EXPECT_EQ(trianglesOf(mesh_F).size(), count);
+}
+
+TEST_F(DepthSurfaceTest, NoTriangleExistsAtAPixelThatSeesNothing) {
+  for (const float nothing : {kNone, std::numeric_limits<float>::infinity(), 0.0F, -1.0F, 0.05F, 4.5F, 65.535F}) {
+    std::vector<float> depths = wall(1.0F);
+    at(depths, 7, 3) = nothing;  // in the corner of a tile
+    const auto triangles = trianglesOf(take(depths));
+    EXPECT_EQ(triangles.size(), 2U * (kWidth - 1) * (kHeight - 1) - 6U) << nothing;
+    for (const auto& triangle : triangles) EXPECT_EQ(triangle.count(grid_.place(7, 3)), 0U);
+  }
+}
+
+TEST_F(DepthSurfaceTest, NothingSeenHasNoTriangleAndIsWhereTheCameraIs) {
+  Random random(2);
+  const Eigen::Isometry3d X_FC = random.pose({1.0, 2.0, 3.0});
+  const TriangleMesh mesh_F = take(wall(kNone), X_FC);
+  EXPECT_TRUE(trianglesOf(mesh_F).empty());
+  EXPECT_TRUE(mesh_F.bounds_M().isApprox(Eigen::AlignedBox3d(X_FC.translation(), X_FC.translation()), 1e-6));
+}
+
+TEST_F(DepthSurfaceTest, PixelsThatSeeNothingMakeNoBoxLarger) {
+  std::vector<float> depths = wall(kNone);
+  for (std::uint32_t row = 10; row < 20; ++row) {
+    for (std::uint32_t column = 10; column < 20; ++column) at(depths, column, row) = 1.0F;
+  }
+  const Eigen::AlignedBox3d seen(onRay(10, 10, 1.0), onRay(19, 19, 1.0));
+  const Eigen::AlignedBox3d box = take(depths).bounds_M();
+  EXPECT_TRUE(box.isApprox(seen, 1e-6));
+}
+
+TEST_F(DepthSurfaceTest, AStepIsTheEdgeOfWhatIsSeenAndASteepSurfaceIsNone) {
+  std::vector<float> steps = wall(1.0F);
+  std::vector<float> steep = wall(1.0F);
+  for (std::uint32_t row = 0; row < kHeight; ++row) {
+    for (std::uint32_t column = 20; column < kWidth; ++column) {
+      at(steps, column, row) = 1.5F;
+      at(steep, column, row) = 1.0F + 0.05F * static_cast<float>(column - 19);  // 72 degrees
+    }
+  }
+  const auto broken = trianglesOf(take(steps));
+  EXPECT_EQ(broken.size(), 2U * (kWidth - 2) * (kHeight - 1));
+  EXPECT_EQ(broken.count({grid_.place(19, 5), grid_.place(20, 5), grid_.place(19, 6)}), 0U);
+  EXPECT_EQ(trianglesOf(take(steep)).size(), 2U * (kWidth - 1) * (kHeight - 1));
+}
+
+// Noise of the camera is no step.
+TEST_F(DepthSurfaceTest, AStepIsLargerThanTwiceTheMargin) {
+  std::vector<float> depths = wall(0.1F);
+  for (size_t i = 0; i < depths.size(); i += 2) depths[i] = 0.16F;
+  EXPECT_TRUE(trianglesOf(take(depths)).size() < 10U);
+  EXPECT_EQ(trianglesOf(take(depths, Eigen::Isometry3d::Identity(), {0.05, 4.0, {0.03, 0.0}})).size(),
+            2U * (kWidth - 1) * (kHeight - 1));
+}
+
+TEST_F(DepthSurfaceTest, WhatWasSeenBeforeIsForgotten) {
+  DepthSurface surface(grid_, kCamera, kExact);
+  TriangleMesh mesh_F(grid_);
+  for (const auto& depths : {wall(1.0F), wall(kNone)}) {
+    surface.take(depths, Eigen::Isometry3d::Identity());
+    mesh_F.deform(surface.places_F(), surface.existing());
+  }
+  EXPECT_EQ(surface.seen(), 0U);
+  EXPECT_TRUE(trianglesOf(mesh_F).empty());
+}
+
+TEST_F(DepthSurfaceTest, AnImageAllocatesNothing) {
+  DepthSurface surface(grid_, kCamera, kExact);
+  TriangleMesh mesh_F(grid_);
+  const std::vector<float> depths = wall(1.0F);
+  surface.take(depths, Eigen::Isometry3d::Identity());
+  mesh_F.deform(surface.places_F(), surface.existing());
+  const Allocations allocations;
+  surface.take(depths, Eigen::Isometry3d::Identity());
+  mesh_F.deform(surface.places_F(), surface.existing());
+  EXPECT_EQ(allocations.count(), 0U) << allocations.stacks();
+}
+
+TEST_F(DepthSurfaceTest, ACameraOrARangeThatIsNoneIsRefused) {
+  const auto refused = [&](const Pinhole& camera, const DepthOptions& options) {
+    return refusal([&] { DepthSurface(grid_, camera, options); });
+  };
+  EXPECT_TRUE(has(refused({0.0, 0.0, 0.0, 0.0}, kExact), "it is not calibrated"));
+  EXPECT_TRUE(has(refused({60.0, std::nan(""), 0.0, 0.0}, kExact), "it is not calibrated"));
+  EXPECT_TRUE(has(refused(kCamera, {0.0, 1.0, {0.0, 0.0}}), "begins above 0"));
+  EXPECT_TRUE(has(refused(kCamera, {1.0, 1.0, {0.0, 0.0}}), "begins above 0"));
+  EXPECT_TRUE(has(refused(kCamera, {0.1, 1.0, {-0.1, 0.0}}), "at least 0"));
+}
+
+// A mesh of ordinary triangles stands for those that exist.
+class GridDetectionTest : public testing::TestWithParam<std::string> {};
+
+TEST_P(GridDetectionTest, FindsOfTheTrianglesThatExistWhatTheExactOracleFindsAndNoOther) {
+  const auto detector = makeDetector(GetParam());
+  const Grid grid(kWidth, kHeight);
+  size_t met = 0;
+  size_t passed = 0;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    Random random(seed);
+    std::vector<float> depths = wall(kNone);
+    for (float& depth : depths) depth = random.chance(0.1) ? kNone : static_cast<float>(random.uniform(1.0, 1.1));
+    DepthSurface surface(grid, kCamera, kExact);
+    surface.take(depths, random.pose({0.0, 0.0, 0.0}));
+    TriangleMesh mesh_F(grid);
+    mesh_F.deform(surface.places_F(), surface.existing());
+    SweptVolume volume;
+    volume.box.half_extents = Eigen::Vector3d::Constant(random.uniform(0.1, 0.3));
+    volume.box.X_MB = random.pose(mesh_F.vertex(grid.place(20, 20)));
+    const TriangleSet found = detector->detect(mesh_F, volume).triangles;
+    std::set<std::uint32_t> existing;
+    Submesh(mesh_F).forEachTriangle([&](std::uint32_t i) { existing.insert(i); });
+    for (const std::uint32_t i : found) EXPECT_EQ(existing.count(i), 1U);
+    for (std::uint32_t i = 0; i < mesh_F.triangles().size(); ++i) {
+      const bool meets = meetsExactly(mesh_F, i, volume);
+      if (!meets) continue;
+      if (existing.count(i) == 1) EXPECT_TRUE(std::binary_search(found.begin(), found.end(), i)) << seed;
+      existing.count(i) == 1 ? ++met : ++passed;
+    }
+  }
+  EXPECT_GT(met, 1000U);
+  EXPECT_GT(passed, 1000U);
+}
+
+INSTANTIATE_TEST_SUITE_P(AllDetectors, GridDetectionTest, testing::ValuesIn(detectorNames()));
+
+}  // namespace
+}  // namespace sweep_guard_core
