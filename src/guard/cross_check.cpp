@@ -156,10 +156,12 @@ std::string describe(const SampledQuery& query, const Disagreement& disagreement
 }
 
 TriangleSet testedTriangles(const SampledQuery& query) {
-  const MeshOrder& order = query.workpiece->mesh_M.order();
+  const TriangleMesh& mesh_M = query.workpiece->mesh_M;
+  const MeshOrder& order = mesh_M.order();
   TriangleSet all;
   for (const Cluster& cluster : query.whole ? order.clusters : query.clusters) {
-    for (std::uint32_t place = cluster.first; place < cluster.first + cluster.count; ++place) {
+    for (std::uint64_t left = mesh_M.existing(cluster); left != 0; left &= left - 1) {
+      const std::uint32_t place = cluster.first + static_cast<std::uint32_t>(__builtin_ctzll(left));
       all.push_back(order.triangle_at.empty() ? place : order.triangle_at[place]);
     }
   }
