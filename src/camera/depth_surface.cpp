@@ -125,10 +125,10 @@ void DepthSurface::findTriangles() {
 
 DepthSurface::Tile DepthSurface::tileAt(std::uint32_t tile_column, std::uint32_t tile_row) const {
   Tile tile;
-  const std::uint32_t u = tile_column * static_cast<std::uint32_t>(kColumns);
+  const std::uint32_t u = tile_column * Grid::kTileColumns;
   const bool is_last = u + kColumns >= x_.size();
   for (std::uint32_t row = 0; row <= kRows; ++row) {
-    const std::uint32_t v = tile_row * kRows + row;
+    const std::uint32_t v = tile_row * Grid::kTileRows + row;
     auto& depth = tile.depth[row];
     auto& step = tile.step[row];
     depth.fill(kNothing);

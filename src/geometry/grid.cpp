@@ -6,7 +6,7 @@
 
 namespace sweep_guard_core {
 
-static_assert(Grid::kTileColumns * Grid::kTileRows == simd::kBlock);
+static_assert(Grid::kTilePixels == simd::kBlock);
 static_assert(2 * simd::kBlock == simd::kCluster);
 
 Grid::Grid(std::uint32_t width, std::uint32_t height) : width_(width), height_(height) {

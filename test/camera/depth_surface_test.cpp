@@ -196,10 +196,10 @@ TEST_P(GridDetectionTest, FindsOfTheTrianglesThatExistWhatTheExactOracleFindsAnd
     Submesh(mesh_F).forEachTriangle([&](std::uint32_t i) { existing.insert(i); });
     for (const std::uint32_t i : found) EXPECT_EQ(existing.count(i), 1U);
     for (std::uint32_t i = 0; i < mesh_F.triangles().size(); ++i) {
-      const bool meets = meetsExactly(mesh_F, i, volume);
-      if (!meets) continue;
-      if (existing.count(i) == 1) EXPECT_TRUE(std::binary_search(found.begin(), found.end(), i)) << seed;
-      existing.count(i) == 1 ? ++met : ++passed;
+      if (!meetsExactly(mesh_F, i, volume)) continue;
+      const bool exists = existing.count(i) == 1;
+      EXPECT_TRUE(!exists || std::binary_search(found.begin(), found.end(), i)) << seed;
+      ++(exists ? met : passed);
     }
   }
   EXPECT_GT(met, 1000U);

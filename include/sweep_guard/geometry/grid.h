@@ -16,6 +16,7 @@ class Grid {
  public:
   static constexpr std::uint32_t kTileColumns = 8;
   static constexpr std::uint32_t kTileRows = 4;
+  static constexpr std::uint32_t kTilePixels = kTileColumns * kTileRows;
   static constexpr std::uint32_t kMaxPixels = 1U << 23U;
 
   /// @param width   in pixels, at least 2
@@ -34,7 +35,7 @@ class Grid {
   /// Returns the place of a pixel's vertex; within the tiles, not checked.
   std::uint32_t place(std::uint32_t column, std::uint32_t row) const {
     const std::uint32_t tile = row / kTileRows * tileColumns() + column / kTileColumns;
-    return tile * simd::kBlock + row % kTileRows * kTileColumns + column % kTileColumns;
+    return tile * kTilePixels + row % kTileRows * kTileColumns + column % kTileColumns;
   }
 
   /// Returns the triangles at their places. Those of tile t begin at t * simd::kCluster, two for each of its pixels: 2 i and
