@@ -1,7 +1,6 @@
 #include "ros/connection/publisher_header.h"
 
 #include <ros/header.h>
-#include <ros/master.h>
 #include <ros/this_node.h>
 
 #include <boost/asio/ip/tcp.hpp>
@@ -55,22 +54,6 @@ std::optional<ros::M_string> publisherHeader(const XmlRpcCall& call, const std::
   if (!publishers || publishers->count(topic) == 0) return std::nullopt;
   for (const std::string& publisher : publishers->at(topic)) {
     if (auto header = publisherHeader(call, topic, publisher)) return header;
-  }
-  return std::nullopt;
-}
-
-std::optional<ros::M_string> unconnectedHeader(const XmlRpcCall& call, const std::string& topic,
-                                               const std::string& md5) {
-  const auto nodes = registeredPublishers(call, topic);
-  auto connected = connectedPublishers(call);
-  if (!nodes || !connected || nodes->size() <= (*connected)[topic].size()) return std::nullopt;
-  for (const std::string& node : *nodes) {
-    const auto address = call.call(ros::master::getURI(), "lookupNode", {XmlRpc::XmlRpcValue(node)});
-    if (!address || !address->success) continue;
-    const std::string& publisher = address->value;
-    if ((*connected)[topic].count(publisher) != 0) continue;
-    auto header = publisherHeader(call, topic, publisher);
-    if (header && (*header)["md5sum"] != md5) return header;
   }
   return std::nullopt;
 }

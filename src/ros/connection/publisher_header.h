@@ -15,13 +15,8 @@ namespace sweep_guard_ros {
 /// @returns empty if there is no publisher, or none that answers
 /// @throws XmlRpc::XmlRpcException if an answer cannot be read
 std::optional<ros::M_string> publisherHeader(const XmlRpcCall& call, const std::string& topic);
-/// The same, of one publisher, connected or not.
+/// The same, of one publisher, connected or not. For a moment it has a subscriber more.
 std::optional<ros::M_string> publisherHeader(const XmlRpcCall& call, const std::string& topic,
                                              const std::string& publisher);
-/// Returns the header of a publisher that the master knows and that is not connected, because its messages have another
-/// definition: roscpp keeps a topic to that of the first publisher. Its `callerid` is the node.
-/// @param md5  of the definition of those that are connected
-std::optional<ros::M_string> unconnectedHeader(const XmlRpcCall& call, const std::string& topic,
-                                               const std::string& md5);
 
 }  // namespace sweep_guard_ros

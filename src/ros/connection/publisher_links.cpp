@@ -85,6 +85,21 @@ std::optional<std::vector<std::string>> registeredPublishers(const XmlRpcCall& c
   return publishers;
 }
 
+std::optional<Publishers> unconnectedPublishers(const XmlRpcCall& call, const std::string& topic) {
+  const auto nodes = registeredPublishers(call, topic);
+  auto connected = connectedPublishers(call);
+  if (!nodes || !connected) return std::nullopt;
+  Publishers unconnected;
+  if (nodes->size() <= (*connected)[topic].size()) return unconnected;
+  for (const std::string& node : *nodes) {
+    const auto address = call.call(ros::master::getURI(), "lookupNode", {XmlRpcValue(node)});
+    if (!address || !address->success) continue;
+    const std::string& publisher = address->value;
+    if ((*connected)[topic].count(publisher) == 0) unconnected.insert(publisher);
+  }
+  return unconnected;
+}
+
 bool updatePublishers(const XmlRpcCall& call, const std::string& topic, const Publishers& added,
                       const Publishers& removed) {
   static sweep_guard_core::Mutex one_at_a_time;

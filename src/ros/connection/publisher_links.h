@@ -33,6 +33,11 @@ std::optional<PublishersOfTopics> connectedPublishers(const XmlRpcCall& call);
 /// @throws XmlRpc::XmlRpcException if the answer cannot be read
 std::optional<std::vector<std::string>> registeredPublishers(const XmlRpcCall& call, const std::string& topic);
 
+/// Returns the publishers of a topic that the master knows and this process is not connected to.
+/// @returns empty optional: no answer
+/// @throws XmlRpc::XmlRpcException if an answer cannot be read
+std::optional<Publishers> unconnectedPublishers(const XmlRpcCall& call, const std::string& topic);
+
 /// Connects a topic to some publishers and disconnects it from others; all other connections stay. roscpp takes a list
 /// of publishers as complete, so the connections are read immediately before. A publisher that another node announces
 /// in between, and that is connected by then, is disconnected again.

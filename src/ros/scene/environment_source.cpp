@@ -224,7 +224,6 @@ bool EnvironmentSource::tick(const Publishers& publishers) {
     restarts_ = true;
   }
   publishers_ = publishers;
-  if (has_publisher_ && publishers.empty()) receiving_.post([this] { subscribe(); });
   has_publisher_ = !publishers.empty();
   const bool waits = tick_pending_.exchange(true);
   if (!waits) {
@@ -255,8 +254,22 @@ void EnvironmentSource::checkTopic() {
   if (needs_full_scene_) requestFullScene();
 }
 
+// Of the publishers that were unconnected at the look before, too: those that are just being connected are not to be disturbed.
+std::optional<ros::M_string> EnvironmentSource::otherDefinition() {
+  const auto unconnected = unconnectedPublishers(call_, topic_.topic);
+  if (!unconnected) return std::nullopt;
+  const Publishers before = std::exchange(unconnected_, *unconnected);
+  for (const std::string& publisher : *unconnected) {
+    if (before.count(publisher) == 0) continue;
+    auto header = publisherHeader(call_, topic_.topic, publisher);
+    if (header && entryOf(*header, "md5sum") != md5_) return header;
+  }
+  return std::nullopt;
+}
+
 void EnvironmentSource::checkOthers() {
-  const auto other = unconnectedHeader(call_, topic_.topic, md5_);
+  const auto other = otherDefinition();
+  if (other && !has_publisher_) return receiving_.post([this] { subscribe(); });
   if (other) {
     const std::string type = entryOf(*other, "type");
     refuse(printable(entryOf(*other, "callerid")) + " sends " + (type == state().type ? "another version of " : "") +

@@ -61,6 +61,7 @@ class EnvironmentSource {
   void subscribe();
   void checkTopic();
   void checkOthers();
+  std::optional<ros::M_string> otherDefinition();
   void begin(const std::string& type);
   void open(const ros::M_string& header);
   void read(Wire bytes, sweep_guard_core::Time now);
@@ -82,6 +83,7 @@ class EnvironmentSource {
   std::unique_ptr<SceneReader> reader_;
   bool needs_full_scene_ = false;
   bool has_lost_ = false;   // a message, and none since has made up for it
+  Publishers unconnected_;  // at the last look
   bool has_other_ = false;  // a publisher whose messages have another definition
   int ticks_ = 0;
   Publishers publishers_;                    // at the last tick(), whose thread alone uses it
