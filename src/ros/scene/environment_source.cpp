@@ -108,21 +108,19 @@ bool EnvironmentSource::attempt(const std::function<void()>& work) {
   return false;
 }
 
+// Told under the lock: two threads refuse.
 void EnvironmentSource::refuse(const std::string& why) {
-  {
-    const sweep_guard_core::Lock lock(mutex_);
-    if (state_.refused == why) return;
-    state_.refused = why;
-  }
+  const sweep_guard_core::Lock lock(mutex_);
+  if (state_.refused == why) return;
+  state_.refused = why;
   refuse_(why);
 }
 
 void EnvironmentSource::endRefusal() {
-  {
-    const sweep_guard_core::Lock lock(mutex_);
-    if (state_.refused.empty()) return;
-    state_.refused.clear();
-  }
+  if (has_lost_ || has_other_ || needs_full_scene_ || has_dropped_) return;
+  const sweep_guard_core::Lock lock(mutex_);
+  if (state_.refused.empty()) return;
+  state_.refused.clear();
   refuse_("");
 }
 
@@ -174,7 +172,7 @@ void EnvironmentSource::begin(const std::string& type) {
     state_.type = type;
   }
   restart();
-  if (!needs_full_scene_) endRefusal();
+  endRefusal();
 }
 
 // Of a publisher that is new.
@@ -201,9 +199,8 @@ void EnvironmentSource::read(Wire bytes, sweep_guard_core::Time now) {
   }
   report(reader_->read(MessageValue(*definition_, bytes), now));
   is_known_ = true;
-  if (needs_full_scene_) return;
   if (reader_->isComplete()) has_lost_ = false;
-  if (!has_lost_ && !has_other_) endRefusal();
+  endRefusal();
 }
 
 void EnvironmentSource::report(SceneUpdate update) {
@@ -259,10 +256,10 @@ std::optional<ros::M_string> EnvironmentSource::otherDefinition() {
   const auto unconnected = unconnectedPublishers(call_, topic_.topic);
   if (!unconnected) return std::nullopt;
   const Publishers before = std::exchange(unconnected_, *unconnected);
-  for (const std::string& publisher : *unconnected) {
+  for (const std::string& publisher : unconnected_) {
     if (before.count(publisher) == 0) continue;
     auto header = publisherHeader(call_, topic_.topic, publisher);
-    if (header && entryOf(*header, "md5sum") != md5_) return header;
+    if (header && header->count("md5sum") != 0 && entryOf(*header, "md5sum") != md5_) return header;
   }
   return std::nullopt;
 }
@@ -275,8 +272,9 @@ void EnvironmentSource::checkOthers() {
     refuse(printable(entryOf(*other, "callerid")) + " sends " + (type == state().type ? "another version of " : "") +
            printable(type) + ", other publishers " + state().type + ": give each a topic");
   }
-  const bool had_other = std::exchange(has_other_, other.has_value());
-  if (had_other && !has_other_ && !has_lost_ && !needs_full_scene_) endRefusal();
+  const bool had_other = has_other_;
+  has_other_ = other || (had_other && !unconnected_.empty());  // it may not have answered
+  if (had_other) endRefusal();
 }
 
 // Messages that come meanwhile wait, and are read after the answer.

@@ -19,8 +19,7 @@ struct RawMessage {
   const boost::shared_ptr<ros::M_string>& header;  ///< of the connection: type, md5sum, message_definition, callerid
 };
 
-/// Takes the messages of a topic, whatever their type, where roscpp has received them: a copy would take longer than to
-/// read them.
+/// Takes the messages of a topic, whatever their type, where roscpp has received them: if a copy is needed, it is the only one.
 class RawMessages : public ros::SubscriptionCallbackHelper {
  public:
   using Callback = std::function<void(const RawMessage&)>;
