@@ -142,10 +142,10 @@ void EnvironmentSource::drop() {
 
 void EnvironmentSource::receive(const Bytes& bytes, const boost::shared_ptr<ros::M_string>& header) {
   const bool is_read = attempt([&] {
-    if (header != connection_) {
+    if (isNew(header)) {
       has_lost_ = false;
       open(*header);
-      connection_ = header;
+      connections_.emplace_back(header);
     }
     makeUpForDropped();
     if (bytes.empty()) throw InvalidInput("a message exceeds 96 MiB");
@@ -154,6 +154,14 @@ void EnvironmentSource::receive(const Bytes& bytes, const boost::shared_ptr<ros:
   if (is_read) return;
   has_lost_ = true;
   if (reader_) attempt([this] { restart(); });
+}
+
+// Several publishers may take turns.
+bool EnvironmentSource::isNew(const boost::shared_ptr<ros::M_string>& header) {
+  const auto has_ended = [](const auto& connection) { return connection.expired(); };
+  connections_.erase(std::remove_if(connections_.begin(), connections_.end(), has_ended), connections_.end());
+  return std::none_of(connections_.begin(), connections_.end(),
+                      [&](const auto& connection) { return connection.lock() == header; });
 }
 
 void EnvironmentSource::makeUpForDropped() {

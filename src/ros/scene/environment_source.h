@@ -57,6 +57,7 @@ class EnvironmentSource {
   void push(const RawMessage& message);
   void drop();
   void receive(const Bytes& bytes, const boost::shared_ptr<ros::M_string>& header);
+  bool isNew(const boost::shared_ptr<ros::M_string>& header);
   void makeUpForDropped();
   void subscribe();
   void checkTopic();
@@ -77,8 +78,8 @@ class EnvironmentSource {
   const Apply apply_;
   const Refuse refuse_;
   ros::NodeHandle node_;
-  boost::shared_ptr<ros::M_string> connection_;  // of the newest message
-  std::string md5_;                              // of the definition
+  std::vector<boost::weak_ptr<ros::M_string>> connections_;  // that sent messages
+  std::string md5_;                                          // of the definition
   std::optional<MessageDefinition> definition_;
   std::unique_ptr<SceneReader> reader_;
   bool needs_full_scene_ = false;
