@@ -118,17 +118,6 @@ void addTool(visualization_msgs::MarkerArray& array, const Marker& tool,
   }
 }
 
-double liftOff(const sweep_guard_core::Tool& tool) {
-  return std::min(0.001, 0.05 * tool.bounds_T().sizes().minCoeff());
-}
-
-SurfaceMarker::SurfaceMarker(const std::string& ns, int index, const std::string& frame, sweep_guard_core::Time stamp,
-                             double line_width)
-    : faces_(marker(ns, 2 * index, Marker::TRIANGLE_LIST, frame, stamp)),
-      edges_(marker(ns, 2 * index + 1, Marker::LINE_LIST, frame, stamp)) {
-  edges_.scale.x = line_width;
-}
-
 // Triangles may have either winding.
 void addSurface(Marker& list, const sweep_guard_core::TriangleMesh& mesh_M) {
   list.points.reserve(3 * mesh_M.triangles().size());
@@ -139,6 +128,17 @@ void addSurface(Marker& list, const sweep_guard_core::TriangleMesh& mesh_M) {
     const double facing = std::abs(normalOf(corners[0], corners[1], corners[2]).dot(kLight));
     list.colors.push_back(shaded(list.color, 0.5 + 0.5 * facing));
   }
+}
+
+double liftOff(const sweep_guard_core::Tool& tool) {
+  return std::min(0.001, 0.05 * tool.bounds_T().sizes().minCoeff());
+}
+
+SurfaceMarker::SurfaceMarker(const std::string& ns, int index, const std::string& frame, sweep_guard_core::Time stamp,
+                             double line_width)
+    : faces_(marker(ns, 2 * index, Marker::TRIANGLE_LIST, frame, stamp)),
+      edges_(marker(ns, 2 * index + 1, Marker::LINE_LIST, frame, stamp)) {
+  edges_.scale.x = line_width;
 }
 
 void SurfaceMarker::paint(const std_msgs::ColorRGBA& faces, const std_msgs::ColorRGBA& edges) {

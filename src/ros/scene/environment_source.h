@@ -22,7 +22,7 @@ namespace sweep_guard_ros {
 
 /// Reads the messages of one topic in a thread of its own, by the definition that their publisher sends with them, and
 /// reports what they change. What cannot be read, or is not known yet, is a refusal of the topic. It ends with a message that
-/// says all, or with a new publisher.
+/// says all, or with a new connection; for a publisher whose messages have another definition, when that one has gone.
 class EnvironmentSource {
  public:
   using Apply = std::function<void(sweep_guard_core::SceneUpdate)>;
@@ -92,7 +92,7 @@ class EnvironmentSource {
   std::atomic<bool> restarts_ = false;       // a publisher has gone
   std::atomic<bool> is_known_ = false;       // a message came since
   std::atomic<bool> tick_pending_ = false;   // the thread of the source has not come to the last tick()
-  std::atomic<bool> has_dropped_ = false;
+  std::atomic<bool> has_dropped_ = false;    // a message, which makeUpForDropped() has not seen yet
   mutable sweep_guard_core::Mutex mutex_;
   State state_ GUARDED_BY(mutex_);
   QueueThread& receiving_;

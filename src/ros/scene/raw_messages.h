@@ -13,9 +13,9 @@
 
 namespace sweep_guard_ros {
 
-/// A message of any type, as it came.
+/// A message of any type, as it came. Valid while the callback runs; the header may be kept by a copy of its pointer.
 struct RawMessage {
-  Wire bytes;                                      ///< valid while the callback runs
+  Wire bytes;
   const boost::shared_ptr<ros::M_string>& header;  ///< of the connection: type, md5sum, message_definition, callerid
 };
 
