@@ -39,7 +39,11 @@ DepthSurface::DepthSurface(const Grid& grid, const Pinhole& camera, const DepthO
       inverse_(grid.places()),
       depths_(grid.places(), kNothing),
       steps_(grid.places(), kNothing),
+      remembered_(grid.places(), kNothing),
+      depths_before_(grid.places(), kNothing),
+      places_before_F_(3 * grid.places(), 0.0F),
       places_F_(3 * grid.places(), 0.0F),
+      before_F_(3 * grid.places(), 0.0F),
       existing_(grid.tiles(), 0) {
   checkCamera(camera);
   checkOptions(options);
@@ -53,10 +57,22 @@ DepthSurface::DepthSurface(const Grid& grid, const Pinhole& camera, const DepthO
   }
 }
 
-void DepthSurface::take(const std::vector<float>& depths, const Eigen::Isometry3d& X_FC) {
+void DepthSurface::take(const std::vector<float>& depths, const Eigen::Isometry3d& X_FC, double reach,
+                        const std::vector<SweptVolume>& bodies_F) {
   assert(depths.size() == size_t{grid_.width()} * grid_.height());
+  if (X_FC.matrix() != X_FC_.matrix()) forget();
+  X_FC_ = X_FC;
   findVertices(depths, X_FC);
+  hideSelf(bodies_F, X_FC);
+  fillUnseen(X_FC.translation());
   findTriangles();
+  findMotion(reach);
+}
+
+// Where the camera goes, its pixels show something else.
+void DepthSurface::forget() {
+  std::fill(remembered_.begin(), remembered_.end(), kNothing);
+  std::fill(depths_before_.begin(), depths_before_.end(), kNothing);
 }
 
 void DepthSurface::findVertices(const std::vector<float>& depths, const Eigen::Isometry3d& X_FC) {
@@ -67,7 +83,33 @@ void DepthSurface::findVertices(const std::vector<float>& depths, const Eigen::I
       placeRow(X_FC, column, row, place);
     }
   }
-  fillUnseen(X_FC.translation());
+}
+
+void DepthSurface::hideSelf(const std::vector<SweptVolume>& bodies_F, const Eigen::Isometry3d& X_FC) {
+  self_.find(places_F_, bodies_F);
+  for (std::uint32_t row = 0; self_.count() > 0 && row < y_.size(); ++row) {
+    for (std::uint32_t column = 0; column < x_.size(); column += kColumns) {
+      const std::uint32_t place = grid_.place(column, row);
+      const auto hidden = self_.tiles()[place / Grid::kTilePixels] >> place % Grid::kTilePixels & 0xFFU;
+      if (hidden == 0) continue;
+      for (size_t i = 0; i < kColumns; ++i) {
+        if ((hidden >> i & 1U) != 0) setDepth(place + i, remembered_[place + i]);
+      }
+      placeRow(X_FC, column, row, place);
+    }
+  }
+  std::transform(depths_.begin(), depths_.end(), remembered_.begin(), remembered_.begin(),
+                 [](float depth, float before) { return std::isnan(depth) ? before : depth; });
+}
+
+void DepthSurface::findMotion(double reach) {
+  const auto most = static_cast<float>(reach);
+  for (size_t place = 0; place < depths_.size(); ++place) {
+    const bool goes_on = std::abs(depths_[place] - depths_before_[place]) <= most * inverse_[place];
+    std::copy_n(&(goes_on ? places_before_F_ : places_F_)[3 * place], 3, &before_F_[3 * place]);
+  }
+  depths_before_ = depths_;
+  places_before_F_ = places_F_;
 }
 
 void DepthSurface::readRow(const std::vector<float>& depths, std::uint32_t column, std::uint32_t row, size_t place) {
@@ -77,11 +119,13 @@ void DepthSurface::readRow(const std::vector<float>& depths, std::uint32_t colum
   read.fill(kNothing);
   const std::uint32_t count = row < grid_.height() ? std::min<std::uint32_t>(kColumns, grid_.width() - column) : 0;
   std::copy_n(depths.data() + (count == 0 ? 0 : size_t{row} * grid_.width() + column), count, read.data());
-  for (size_t i = 0; i < kColumns; ++i) {
-    const float depth = read[i] >= nearest && read[i] <= farthest ? read[i] : kNothing;
-    depths_[place + i] = depth;
-    steps_[place + i] = slope_ * depth + 2.0F * (margin_[0] + margin_[1] * depth * depth);
-  }
+  for (size_t i = 0; i < kColumns; ++i)
+    setDepth(place + i, read[i] >= nearest && read[i] <= farthest ? read[i] : kNothing);
+}
+
+void DepthSurface::setDepth(size_t place, float depth) {
+  depths_[place] = depth;
+  steps_[place] = slope_ * depth + 2.0F * (margin_[0] + margin_[1] * depth * depth);
 }
 
 void DepthSurface::placeRow(const Eigen::Isometry3d& X_FC, std::uint32_t column, std::uint32_t row, size_t place) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "camera/self_pixels.h"
 #include "sweep_guard/geometry/grid.h"
 
 namespace sweep_guard_core {
@@ -28,7 +29,10 @@ struct DepthOptions {
 /// one across a step, where something nearer ends in front of something else: between them nothing was seen. A step is what would be
 /// a surface that one sees at less than 6 degrees.
 ///
-/// Takes one pass over the pixels for positions and one for triangles, and allocates nothing once it is made.
+/// While the camera rests, a pixel that shows the robot itself is a vertex where it was last before the robot hid it, and a pixel
+/// whose depth changes by little has moved along its ray. A larger change says that something came or went.
+///
+/// Takes a pass over the pixels each for positions, triangles and motion, and allocates nothing once it is made.
 class DepthSurface {
  public:
   /// @throws InvalidInput if camera or options are not as above, or not finite
@@ -37,14 +41,20 @@ class DepthSurface {
   /// Takes an image.
   /// @param depths  depth z of each pixel [m], row by row; NaN, infinite, or out of range: not seen
   /// @param X_FC    pose of the camera in the frame F of the surface [m]
-  void take(const std::vector<float>& depths, const Eigen::Isometry3d& X_FC);
+  /// @param reach   largest distance by which a pixel moves along its ray from the image before [m], >= 0
+  /// @param bodies_F  volumes around the bodies of the robot, see SelfPixels
+  void take(const std::vector<float>& depths, const Eigen::Isometry3d& X_FC, double reach = 0.0,
+            const std::vector<SweptVolume>& bodies_F = {});
 
   /// Returns the vertices at their places: x0 y0 z0 x1 ... in F [m]. Where nothing is seen, that of the place before, so
   /// that boxes around blocks stay small. TriangleMesh::deform() may exchange the buffer.
   std::vector<float>& places_F() { return places_F_; }
+  /// Returns where the vertices were in the image before; where they are if they have not moved since, or came; the same.
+  std::vector<float>& before_F() { return before_F_; }
   /// Returns for each cluster the bits of its triangles that exist; the same.
   std::vector<std::uint64_t>& existing() { return existing_; }
-  size_t seen() const { return seen_; }  ///< pixels of the newest image
+  size_t seen() const { return seen_; }          ///< pixels of the newest image that are vertices
+  size_t self() const { return self_.count(); }  ///< pixels of the newest image that show the robot
 
  private:
   static constexpr size_t kColumns = Grid::kTileColumns;
@@ -62,7 +72,11 @@ class DepthSurface {
 
   void findVertices(const std::vector<float>& depths, const Eigen::Isometry3d& X_FC);
   void readRow(const std::vector<float>& depths, std::uint32_t column, std::uint32_t row, size_t place);
+  void setDepth(size_t place, float depth);
   void placeRow(const Eigen::Isometry3d& X_FC, std::uint32_t column, std::uint32_t row, size_t place);
+  void forget();
+  void hideSelf(const std::vector<SweptVolume>& bodies_F, const Eigen::Isometry3d& X_FC);
+  void findMotion(double reach);
   void fillUnseen(const Eigen::Vector3d& p_FC);
   void findTriangles();
   Tile tileAt(std::uint32_t tile_column, std::uint32_t tile_row) const;
@@ -70,14 +84,20 @@ class DepthSurface {
   const Grid grid_;
   const DepthOptions options_;
   const std::array<float, 2> margin_;
-  const float slope_;           // largest difference of depths between neighbors, by depth
-  std::vector<double> x_;       // of a ray at depth 1, by column of the tiles
-  std::vector<double> y_;       // by row
-  std::vector<float> inverse_;  // of the length of a ray up to depth 1; this and the following at their places
-  std::vector<float> depths_;   // NaN: not seen
-  std::vector<float> steps_;    // smallest difference to a neighbor's depth that is a step [m]; NaN: not seen
+  const float slope_;                 // largest difference of depths between neighbors, by depth
+  std::vector<double> x_;             // of a ray at depth 1, by column of the tiles
+  std::vector<double> y_;             // by row
+  std::vector<float> inverse_;        // of the length of a ray up to depth 1; this and the following at their places
+  std::vector<float> depths_;         // NaN: not seen
+  std::vector<float> steps_;          // smallest difference to a neighbor's depth that is a step [m]; NaN: not seen
+  std::vector<float> remembered_;     // depth where a pixel last showed something else than the robot; NaN: never
+  std::vector<float> depths_before_;  // of the image before
+  std::vector<float> places_before_F_;
   std::vector<float> places_F_;
+  std::vector<float> before_F_;
   std::vector<std::uint64_t> existing_;
+  Eigen::Isometry3d X_FC_ = Eigen::Isometry3d::Identity();
+  SelfPixels self_;
   size_t seen_ = 0;
 };
 

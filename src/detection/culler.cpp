@@ -1,6 +1,7 @@
 #include "detection/culler.h"
 
 #include <algorithm>
+#include <array>
 
 namespace sweep_guard_core {
 namespace {
@@ -15,7 +16,7 @@ void fetch(const Value* from, size_t count = 1) {
 
 const std::vector<RemainingTriangle>& Culler::cull(const Submesh& submesh, const simd::Planes& planes) {
   remaining_.clear();
-  if (submesh.empty() || whollyBeyond(submesh.mesh_M(), planes)) return remaining_;
+  if (submesh.empty() || whollyBeyond(submesh, planes)) return remaining_;
   findClusters(submesh, planes);
   for (const std::uint32_t block : blocks_) classifyBlock(submesh, planes, block);
   for (const Cluster* cluster : clusters_) cullCluster(submesh.mesh_M(), *cluster);
@@ -23,7 +24,7 @@ const std::vector<RemainingTriangle>& Culler::cull(const Submesh& submesh, const
 }
 
 bool Culler::leavesAny(const Submesh& submesh, const simd::Planes& planes) {
-  if (submesh.empty() || whollyBeyond(submesh.mesh_M(), planes)) return false;
+  if (submesh.empty() || whollyBeyond(submesh, planes)) return false;
   vertex_bits_.resize(std::max(vertex_bits_.size(), submesh.blocks().size() * simd::kBlock));
   bits_.classify(submesh, planes);
   bool any = false;
@@ -55,8 +56,17 @@ void Culler::findClusters(const Submesh& submesh, const simd::Planes& planes) {
 }
 
 void Culler::classifyBlock(const Submesh& submesh, const simd::Planes& planes, std::uint32_t block) {
-  withBlock(submesh.mesh_M().places(), submesh.blocks()[block], [&](const float* vertices) {
-    kernels_->classifyBlock(vertices, planes, &vertex_bits_[block * simd::kBlock]);
+  std::uint16_t* const bits = &vertex_bits_[block * simd::kBlock];
+  const auto classify = [&](const std::vector<float>& places, std::uint16_t* found) {
+    withBlock(places, submesh.blocks()[block],
+              [&](const float* vertices) { kernels_->classifyBlock(vertices, planes, found); });
+  };
+  classify(submesh.mesh_M().places(), bits);
+  if (!submesh.isInMotion()) return;
+  std::array<std::uint16_t, simd::kBlock> before;
+  classify(submesh.mesh_M().placesBefore(), before.data());
+  std::transform(before.begin(), before.end(), bits, bits, [](unsigned one, unsigned other) {
+    return static_cast<std::uint16_t>((one & other) | ((one | other) & simd::kInsideAll));
   });
 }
 

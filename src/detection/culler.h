@@ -16,7 +16,8 @@ struct RemainingTriangle {
 
 /// Decides in float32 what is certain: leaves out triangles that lie wholly beyond one plane of a convex volume, and
 /// marks triangles with a corner inside. Tests the boxes of groups of clusters first, then those of clusters, then the
-/// corners of triangles. Keeps its buffers between calls.
+/// corners of triangles. In motion, a corner is beyond a plane if it is at both ends of its way, and inside if it is at one.
+/// Keeps its buffers between calls.
 class Culler {
  public:
   explicit Culler(const simd::Kernels& kernels = simd::kernels()) : kernels_(&kernels), bits_(kernels) {}

@@ -18,7 +18,7 @@ void HalfspaceDetector::find(const Submesh& submesh, const SweptVolume& swept_M,
         {coordinates.position(triangle[0]), coordinates.position(triangle[1]), coordinates.position(triangle[2])});
   };
   for (const RemainingTriangle& candidate : candidates) {
-    if (candidate.met || meets(mesh_M.triangles()[candidate.triangle]))
+    if (candidate.met || submesh.isInMotion() || meets(mesh_M.triangles()[candidate.triangle]))
       detection.triangles.push_back(candidate.triangle);
   }
 }

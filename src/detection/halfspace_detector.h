@@ -6,7 +6,8 @@
 namespace sweep_guard_core {
 
 /// Decides on the processor's vector units what is certain in float32, and clips the other triangles in double. Finds
-/// the same triangles as the reference, up to the rounding of double precision.
+/// the same triangles as the reference, up to the rounding of double precision. Of a mesh in motion, names each triangle that
+/// does not lie wholly beyond one plane of the volume at both ends of its way.
 class HalfspaceDetector : public Detector {
  public:
   /// @param kernels  change the run time only

@@ -18,9 +18,9 @@ constexpr double kDistanceError = 0x1p-20;  // a dozen roundings of 2^-24: point
 
 }  // namespace
 
-bool whollyBeyond(const TriangleMesh& mesh_M, const simd::Planes& planes) {
-  const Eigen::Vector3f lower = mesh_M.blocks().bounds().min().cast<float>();
-  const Eigen::Vector3f upper = mesh_M.blocks().bounds().max().cast<float>();
+bool whollyBeyond(const Submesh& submesh, const simd::Planes& planes) {
+  const Eigen::Vector3f lower = submesh.bounds().min().cast<float>();
+  const Eigen::Vector3f upper = submesh.bounds().max().cast<float>();
   for (size_t i = 0; i < planes.count; ++i) {
     const Eigen::Vector3f normal(planes.normal[0][i], planes.normal[1][i], planes.normal[2][i]);
     const Eigen::Vector3f nearest = (normal.array() < 0.0F).select(upper, lower);
@@ -61,7 +61,7 @@ Submesh SubmeshFinder::find(const Submesh& around, const simd::Planes& planes) {
   blocks_.clear();
   clusters_.clear();
   old_index_.clear();
-  if (!whollyBeyond(around.mesh_M(), planes)) {
+  if (!whollyBeyond(around, planes)) {
     bits_.classify(around, planes);
     new_index_.assign(around.blocks().size(), kNone);
     bits_.forEachRemaining(around, [&](const Cluster& cluster) { keep(around, cluster); });

@@ -86,7 +86,9 @@ TriangleMesh::TriangleMesh(const Grid& grid) {
   topology_ = std::make_shared<const Topology>(
       Topology{std::move(triangles), /*is_sheet=*/true, Enclosure(), std::move(order)});
   std::vector<float> sent(3 * grid.places(), 0.0F);
+  before_ = sent;
   exchange(sent);
+  blocks_in_motion_ = blocks_;
 }
 
 // Takes the offsets in the sender's order and returns the previous ones in the buffer. Returns false and changes
@@ -107,9 +109,16 @@ bool TriangleMesh::exchange(std::vector<float>& sent) {
 
 bool TriangleMesh::measure() {
   const bool finite = blocks_.measure(offsets_);
-  const Eigen::AlignedBox3d& bounds = blocks_.bounds();
+  return takeBounds(blocks_.bounds()) && finite;
+}
+
+bool TriangleMesh::takeBounds(const Eigen::AlignedBox3d& bounds) {
   radius_ = bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs()).norm();
-  return finite && usable(bounds.min().minCoeff()) && usable(bounds.max().maxCoeff());
+  return usable(bounds.min().minCoeff()) && usable(bounds.max().maxCoeff());
+}
+
+void TriangleMesh::roundTo(const Eigen::AlignedBox3d& bounds) {
+  rounding_ = float32Rounding(bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs()));
 }
 
 void TriangleMesh::checkCount(const std::vector<float>& positions_M) const {
@@ -122,14 +131,21 @@ void TriangleMesh::deform(std::vector<float>& positions_M) {
   checkCount(positions_M);
   if (!exchange(positions_M)) refuse(positions_M);
   origin_.setZero();
-  const Eigen::AlignedBox3d& bounds = blocks_.bounds();
-  rounding_ = float32Rounding(bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs()));
+  roundTo(blocks_.bounds());
 }
 
-void TriangleMesh::deform(std::vector<float>& places_M, std::vector<std::uint64_t>& existing) {
+void TriangleMesh::deform(std::vector<float>& places_M, std::vector<float>& before_M,
+                          std::vector<std::uint64_t>& existing) {
+  assert(before_M.size() == before_.size() && existing.size() == existing_.size());
   deform(places_M);
-  assert(existing.size() == existing_.size());
+  before_.swap(before_M);
   existing_.swap(existing);
+  [[maybe_unused]] const bool finite = blocks_in_motion_.measure(before_);
+  blocks_in_motion_.include(blocks_);
+  const Eigen::AlignedBox3d& bounds = blocks_in_motion_.bounds();
+  [[maybe_unused]] const bool in_bounds = takeBounds(bounds);
+  assert(finite && in_bounds);
+  roundTo(bounds);
 }
 
 }  // namespace sweep_guard_core

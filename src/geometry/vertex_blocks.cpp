@@ -36,6 +36,17 @@ bool VertexBlocks::measure(const std::vector<float>& positions) {
   return finite;
 }
 
+void VertexBlocks::include(const VertexBlocks& others) {
+  assert(others.count_ == count_);
+  const auto middle = static_cast<std::ptrdiff_t>(sides_.size() / 2);
+  const auto lesser = [](float a, float b) { return std::min(a, b); };
+  const auto larger = [](float a, float b) { return std::max(a, b); };
+  const auto& sides = others.sides_;
+  std::transform(sides.begin(), sides.begin() + middle, sides_.begin(), sides_.begin(), lesser);
+  std::transform(sides.begin() + middle, sides.end(), sides_.begin() + middle, sides_.begin() + middle, larger);
+  bounds_.extend(others.bounds_);
+}
+
 simd::BoxArrays<const float> VertexBlocks::arrays() const { return sixArrays(sides_.data(), count_); }
 
 double VertexBlocks::totalSize() const {

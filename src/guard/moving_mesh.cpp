@@ -22,10 +22,24 @@ MovingMesh::MovingMesh(const TriangleMesh& mesh_M, const TriangleMesh& before_M,
   spread_ = 0.5 * displacements.box_M().diagonal().norm() + uncertainty_;
 }
 
+MovingMesh MovingMesh::grid(const TriangleMesh& mesh_M) {
+  MovingMesh mesh(mesh_M);
+  mesh.is_grid_ = true;
+  return mesh;
+}
+
 MovingTriangle MovingMesh::triangle(std::uint32_t index) const {
   const Triangle& triangle = mesh_M_.triangles()[index];
+  if (before_M_ != nullptr) return {corners(*before_M_, triangle), corners(mesh_M_, triangle)};
+  return untranslated(index);
+}
+
+MovingTriangle MovingMesh::untranslated(std::uint32_t index) const {
+  const Triangle& triangle = mesh_M_.triangles()[index];
   const auto now_M = corners(mesh_M_, triangle);
-  return {moved() ? corners(*before_M_, triangle) : now_M, now_M};
+  if (!is_grid_) return {now_M, now_M};
+  const auto& [a, b, c] = triangle;
+  return {{mesh_M_.vertexBefore(a), mesh_M_.vertexBefore(b), mesh_M_.vertexBefore(c)}, now_M};
 }
 
 // A path of this length deviates most if it forms an isosceles triangle with the straight path.

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "guard/displacements.h"
+#include "sweep_guard/detection/submesh.h"
 #include "sweep_guard/detection/time_of_impact.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
 
@@ -21,8 +22,12 @@ class MovingMesh {
   MovingMesh(const TriangleMesh& mesh_M, const TriangleMesh& before_M, const Displacements& displacements,
              double path_deviation);
 
-  const TriangleMesh& mesh_M() const { return mesh_M_; }                   ///< the later deformation
-  bool moved() const { return before_M_ != nullptr; }                      ///< some vertex has moved
+  /// Makes a grid on the way from where its vertices were before. It is not translated: its submesh() is all that it may have met.
+  static MovingMesh grid(const TriangleMesh& mesh_M);
+
+  const TriangleMesh& mesh_M() const { return mesh_M_; }           ///< the later deformation
+  bool moved() const { return is_grid_ || before_M_ != nullptr; }  ///< some vertex has moved
+  Submesh submesh() const { return is_grid_ ? Submesh::inMotion(mesh_M_) : Submesh(mesh_M_); }
   const Eigen::Vector3d& translation_M() const { return translation_M_; }  ///< translation of the mesh as a whole [m]
   /// Returns an upper bound on the distance of a vertex, at any time, from where the translation alone would put it
   /// [m], plus its margin. A volume that is extended by the translation and grown by this meets all that the moving mesh
@@ -32,10 +37,13 @@ class MovingMesh {
   double uncertainty() const { return uncertainty_; }
 
   MovingTriangle triangle(std::uint32_t index) const;
+  /// Returns what of a triangle the translation leaves: of a grid its way, else where it is in the later deformation.
+  MovingTriangle untranslated(std::uint32_t index) const;
 
  private:
   const TriangleMesh& mesh_M_;
   const TriangleMesh* before_M_ = nullptr;
+  bool is_grid_ = false;
   Eigen::Vector3d translation_M_ = Eigen::Vector3d::Zero();
   double spread_ = mesh_M_.margin();
   double uncertainty_ = mesh_M_.margin();

@@ -44,10 +44,13 @@ UncertainBall UncertainStep::ballAround(const Eigen::AlignedBox3d& pieces_T) con
   return {middle, reach + kDistanceRounding * (middle.norm() + reach), sigma + kMinSigma};
 }
 
-bool staysBeside(const TriangleMesh& mesh_M, const Eigen::AlignedBox3d& points_M, double distance) {
+bool staysBeside(const Submesh& submesh, const Eigen::AlignedBox3d& points_M, double distance) {
+  const TriangleMesh& mesh_M = submesh.mesh_M();
   const double apart =
       (1.0 + kDistanceRounding) * distance + kDistanceRounding * (mesh_M.radius() + mesh_M.origin().norm());
-  return points_M.squaredExteriorDistance(mesh_M.bounds_M()) > apart * apart;
+  const Eigen::AlignedBox3d& bounds = submesh.bounds();
+  const Eigen::AlignedBox3d bounds_M(mesh_M.origin() + bounds.min(), mesh_M.origin() + bounds.max());
+  return points_M.squaredExteriorDistance(bounds_M) > apart * apart;
 }
 
 bool staysOutOfReach(const Tool& tool, const PoseBounds& poses, const MovingMesh& mesh, double margin) {
@@ -55,7 +58,7 @@ bool staysOutOfReach(const Tool& tool, const PoseBounds& poses, const MovingMesh
   const double longest_chord = poses.point_M.diagonal().norm() + 2.0 * poses.deviation;
   const double growth = margin + mesh.spread() + poses.deviation;
   const double reach = 0.5 * longest_chord + mesh.translation_M().norm() + std::sqrt(3.0) * (radius + growth);
-  return staysBeside(mesh.mesh_M(), poses.point_M, poses.deviation + reach);
+  return staysBeside(mesh.submesh(), poses.point_M, poses.deviation + reach);
 }
 
 }  // namespace sweep_guard_core

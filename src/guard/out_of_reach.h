@@ -57,7 +57,7 @@ class UncertainStep {
 };
 
 /// Returns whether no point of a box comes nearer to the box around a mesh than a distance [m], whatever the rounding.
-bool staysBeside(const TriangleMesh& mesh_M, const Eigen::AlignedBox3d& points_M, double distance);
+bool staysBeside(const Submesh& submesh, const Eigen::AlignedBox3d& points_M, double distance);
 
 /// Returns whether no volume of a piece of a tool that moves through some poses reaches the box around a mesh, as a bound tells before
 /// there is a volume.

@@ -46,15 +46,16 @@ bool SegmentContactFinder::keepNewlyMet(const WorkpieceOnPath& on_path, const Tr
                                         bool& only_volume) {
   IntendedTriangles intended = on_path.intendedFor(*piece.approach.piece, piece.body.motion_M);
   const bool is_hull = piece.body.kind == VolumeKind::kHull;
+  const MovingMesh mesh(mesh_M);
   bool meets = false;
   const auto isNewlyMet = [&](std::uint32_t triangle) {
     const bool is_reported = among(so_far.considered, triangle) || among(so_far.reflex, triangle);
     if (is_reported && meets && !only_volume) return false;
     beat();
     if (intended.contains(triangle, mesh_M)) return false;
-    if (is_hull && misses(piece.body, mesh_M, triangle, detection_.inflation)) return false;
+    if (is_hull && misses(piece.body, mesh.triangle(triangle), detection_.inflation)) return false;
     meets = true;
-    only_volume = only_volume && misses(piece.body, mesh_M, triangle);
+    only_volume = only_volume && misses(piece.body, mesh.triangle(triangle));
     return !is_reported;
   };
   TriangleSet& triangles = detection_.triangles;

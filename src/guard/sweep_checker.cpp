@@ -116,7 +116,7 @@ SweepResult& SweepChecker::check(Detector& detector, const SweepRequest& request
   const double margin = request.options.margin + request.mesh.spread();
   for (Motion motion_M : request.sub_motions) {
     motion_M.mesh_translation = request.mesh.translation_M();
-    TreeWalk<Around> walk({request.mesh.mesh_M(), 0});
+    TreeWalk<Around> walk({request.mesh.submesh(), 0});
     while (const auto at = walk.next()) {
       const Tool::Node& node = request.tool.tree()[at->node];
       const SweptBody body = sweptBody(node.shape_T, motion_M, request.options.volume, margin);
@@ -125,7 +125,7 @@ SweepResult& SweepChecker::check(Detector& detector, const SweepRequest& request
         beat();
         detection_ = detector.detect(at->above.submesh, body.volume_M);
         inflation = detection_.inflation;
-        removeMissedByHull(body, request.mesh.mesh_M(), detection_);
+        removeMissedByHull(body, request.mesh, detection_);
         addCandidates(*node.piece, request.contact.allows(*node.piece));
       } else if (const auto met = trianglesMet(body.volume_M, at->above)) {
         walk.goBelow(node.below, *met);

@@ -31,16 +31,17 @@ bool missedByHull(const ConvexShape& shape_T, const Motion& motion_M, const Movi
   return distanceExceeds(hull, prism, margin, guess_M);
 }
 
-bool misses(const SweptBody& body, const TriangleMesh& mesh_M, std::uint32_t triangle, double growth) {
+bool misses(const SweptBody& body, const MovingTriangle& triangle, double growth) {
   beat();
-  return missedByHull(*body.shape_T, body.motion_M, MovingMesh(mesh_M).triangle(triangle),
-                      body.volume_M.margin + growth);
+  return missedByHull(*body.shape_T, body.motion_M, triangle, body.volume_M.margin + growth);
 }
 
-void removeMissedByHull(const SweptBody& body, const TriangleMesh& mesh_M, Detection& detection) {
+void removeMissedByHull(const SweptBody& body, const MovingMesh& mesh, Detection& detection) {
   if (body.kind != VolumeKind::kHull) return;
   TriangleSet& triangles = detection.triangles;
-  const auto is_missed = [&](std::uint32_t triangle) { return misses(body, mesh_M, triangle, detection.inflation); };
+  const auto is_missed = [&](std::uint32_t triangle) {
+    return misses(body, mesh.untranslated(triangle), detection.inflation);
+  };
   triangles.erase(std::remove_if(triangles.begin(), triangles.end(), is_missed), triangles.end());
 }
 

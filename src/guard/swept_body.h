@@ -23,13 +23,13 @@ struct SweptBody {
 /// @param margin  the body is grown by this [m], >= 0
 SweptBody sweptBody(const ConvexShape& shape_T, const Motion& motion_M, VolumeKind kind, double margin);
 
-/// Returns whether a body is proven to miss a triangle of a mesh at rest by the margin of its volume and a growth [m], whatever
-/// the volume: to miss the hull of the body at both ends of the motion, before and after its mesh_translation.
-bool misses(const SweptBody& body, const TriangleMesh& mesh_M, std::uint32_t triangle, double growth = 0.0);
+/// Returns whether a body is proven to miss a triangle by the margin of its volume and a growth [m], whatever the volume: to miss
+/// the hull of the body at both ends of the motion, before and after its mesh_translation.
+bool misses(const SweptBody& body, const MovingTriangle& triangle, double growth = 0.0);
 
 /// If the volume is `hull`, removes what the body misses() by the inflation from what a detector found; otherwise the volume
 /// decides alone.
-void removeMissedByHull(const SweptBody& body, const TriangleMesh& mesh_M, Detection& detection);
+void removeMissedByHull(const SweptBody& body, const MovingMesh& mesh, Detection& detection);
 
 /// Returns whether a direction proves that a body is farther than `margin` [m] from a triangle: from the hull of the
 /// triangle before and after its motion, with the body anywhere in the hull of its motion's two poses before and after

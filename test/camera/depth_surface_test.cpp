@@ -38,7 +38,7 @@ class DepthSurfaceTest : public testing::Test {
     DepthSurface surface(grid_, kCamera, options);
     surface.take(depths, X_FC);
     TriangleMesh mesh_F(grid_);
-    mesh_F.deform(surface.places_F(), surface.existing());
+    mesh_F.deform(surface.places_F(), surface.before_F(), surface.existing());
     return mesh_F;
   }
 
@@ -143,7 +143,7 @@ TEST_F(DepthSurfaceTest, WhatWasSeenBeforeIsForgotten) {
   TriangleMesh mesh_F(grid_);
   for (const auto& depths : {wall(1.0F), wall(kNone)}) {
     surface.take(depths, Eigen::Isometry3d::Identity());
-    mesh_F.deform(surface.places_F(), surface.existing());
+    mesh_F.deform(surface.places_F(), surface.before_F(), surface.existing());
   }
   EXPECT_EQ(surface.seen(), 0U);
   EXPECT_TRUE(trianglesOf(mesh_F).empty());
@@ -154,10 +154,10 @@ TEST_F(DepthSurfaceTest, AnImageAllocatesNothing) {
   TriangleMesh mesh_F(grid_);
   const std::vector<float> depths = wall(1.0F);
   surface.take(depths, Eigen::Isometry3d::Identity());
-  mesh_F.deform(surface.places_F(), surface.existing());
+  mesh_F.deform(surface.places_F(), surface.before_F(), surface.existing());
   const Allocations allocations;
   surface.take(depths, Eigen::Isometry3d::Identity());
-  mesh_F.deform(surface.places_F(), surface.existing());
+  mesh_F.deform(surface.places_F(), surface.before_F(), surface.existing());
   EXPECT_EQ(allocations.count(), 0U) << allocations.stacks();
 }
 
@@ -187,7 +187,7 @@ TEST_P(GridDetectionTest, FindsOfTheTrianglesThatExistWhatTheExactOracleFindsAnd
     DepthSurface surface(grid, kCamera, kExact);
     surface.take(depths, random.pose({0.0, 0.0, 0.0}));
     TriangleMesh mesh_F(grid);
-    mesh_F.deform(surface.places_F(), surface.existing());
+    mesh_F.deform(surface.places_F(), surface.before_F(), surface.existing());
     SweptVolume volume;
     volume.box.half_extents = Eigen::Vector3d::Constant(random.uniform(0.1, 0.3));
     volume.box.X_MB = random.pose(mesh_F.vertex(grid.place(20, 20)));

@@ -17,8 +17,9 @@ namespace sweep_guard_core {
 using TriangleSet = std::vector<std::uint32_t>;
 
 struct Detection {
-  TriangleSet triangles;   ///< triangles that detect() names
-  double inflation = 0.0;  ///< each of them meets the volume grown() by this [m]; covers the rounding of the detector
+  TriangleSet triangles;  ///< triangles that detect() names
+  /// Each of them meets the volume grown() by this [m], but in motion; covers the rounding of the detector.
+  double inflation = 0.0;
 };
 
 /// Finds the triangles of a mesh that a swept volume meets. Made once, queried every cycle. Keeps buffers and devices
@@ -30,7 +31,7 @@ class Detector {
   /// Finds the triangles that the volume meets or touches. Conservative: may also name a triangle that only
   /// swept_M.grown(inflation) meets, and never leaves out one that the volume meets. Takes the vertices as stored: for
   /// the mesh as given, grow the volume by TriangleMesh::rounding().
-  /// @param submesh  all of a mesh or some of it; other triangles are not tested
+  /// @param submesh  all of a mesh or some of it; other triangles are not tested. In motion, only for `halfspace`
   /// @param swept_M  in the frame of the mesh
   /// @returns indices into mesh_M().triangles(); valid until the next call
   /// @throws DeviceError if the answer cannot be trusted: then nothing is known. The next call tries again

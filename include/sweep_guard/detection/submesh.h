@@ -16,13 +16,15 @@ class Submesh {
  public:
   /// Views the whole mesh.
   Submesh(const TriangleMesh& mesh_M)  // NOLINT(google-explicit-constructor)
-      : mesh_M_(&mesh_M),
-        boxes_(mesh_M.blocks().arrays()),
-        blocks_(&mesh_M.order().blocks),
-        clusters_(&mesh_M.order().clusters),
-        groups_(&mesh_M.order().groups) {}
+      : Submesh(mesh_M, mesh_M.blocks(), /*in_motion=*/false) {}
+  /// Views a grid on the way from where its vertices were before: a triangle is all that it may have passed if its corners went
+  /// straight, at any speed.
+  static Submesh inMotion(const TriangleMesh& mesh_M) { return {mesh_M, mesh_M.blocksInMotion(), /*in_motion=*/true}; }
 
   const TriangleMesh& mesh_M() const { return *mesh_M_; }
+  bool isInMotion() const { return in_motion_; }
+  /// Returns the box around the whole mesh, relative to mesh_M().origin() [m].
+  const Eigen::AlignedBox3d& bounds() const { return *bounds_; }
   bool empty() const { return clusters_->empty(); }
 
   /// Returns the blocks, as indices into the boxes of mesh_M().blocks().
@@ -50,7 +52,18 @@ class Submesh {
  private:
   friend class SubmeshFinder;
 
+  Submesh(const TriangleMesh& mesh_M, const VertexBlocks& blocks, bool in_motion)
+      : mesh_M_(&mesh_M),
+        in_motion_(in_motion),
+        bounds_(&blocks.bounds()),
+        boxes_(blocks.arrays()),
+        blocks_(&mesh_M.order().blocks),
+        clusters_(&mesh_M.order().clusters),
+        groups_(&mesh_M.order().groups) {}
+
   const TriangleMesh* mesh_M_;
+  bool in_motion_;
+  const Eigen::AlignedBox3d* bounds_;
   simd::BoxArrays<const float> boxes_;
   const std::vector<std::uint32_t>* blocks_;
   const std::vector<Cluster>* clusters_;
@@ -130,8 +143,8 @@ class SubmeshFinder {
 };
 
 /// Returns whether the box around the mesh lies wholly beyond one of the planes; false in doubt.
-/// @param planes  relative to mesh_M.origin()
-bool whollyBeyond(const TriangleMesh& mesh_M, const simd::Planes& planes);
+/// @param planes  relative to origin() of the mesh
+bool whollyBeyond(const Submesh& submesh, const simd::Planes& planes);
 
 /// The boxes around the clusters of a submesh. Keeps its buffers from one submesh to the next.
 class ClusterBoxes {

@@ -57,12 +57,14 @@ class TriangleMesh {
   ///                             same size with unspecified contents
   /// @throws InvalidInput for a wrong count or an invalid coordinate; mesh and positions do not change
   void deform(std::vector<float>& positions_M);
-  /// Replaces the positions of all vertices of a grid, and says which of its triangles exist. Exchanges buffers and allocates
-  /// nothing.
+  /// Replaces the positions of all vertices of a grid, and says which of its triangles exist, and from where its vertices have come.
+  /// Exchanges buffers and allocates nothing, but for their boxes at the first call.
   /// @param[in,out] places_M  as in deform(), at the places of the grid
+  /// @param[in,out] before_M  where the vertices were before, by an earlier call (asserted to be in bounds): the way from there is
+  ///                          part of the mesh in motion, see blocksInMotion()
   /// @param[in,out] existing  for each cluster the bits of its triangles that exist; on return another such buffer
   /// @throws InvalidInput as deform() does
-  void deform(std::vector<float>& places_M, std::vector<std::uint64_t>& existing);
+  void deform(std::vector<float>& places_M, std::vector<float>& before_M, std::vector<std::uint64_t>& existing);
   /// @throws InvalidInput if these are not three coordinates per vertex
   void checkCount(const std::vector<float>& positions_M) const;
 
@@ -98,10 +100,19 @@ class TriangleMesh {
   const std::vector<float>& places() const { return offsets_; }
   /// Returns the boxes around blocks of places(), relative to origin() [m].
   const VertexBlocks& blocks() const { return blocks_; }
+  /// Returns where the vertices of a grid were before, as places(); of any other mesh none.
+  const std::vector<float>& placesBefore() const { return before_; }
+  /// Returns the boxes around each block of a grid both before and now.
+  const VertexBlocks& blocksInMotion() const { return blocks_in_motion_; }
+  /// Returns the position of vertex `i` of a grid before, in M [m].
+  Eigen::Vector3d vertexBefore(size_t i) const {
+    return origin_ + Eigen::Map<const Eigen::Vector3f>(&before_[3 * i]).cast<double>();
+  }
+
   /// Returns the order of vertices and triangles in memory; it is the same for all deformations.
   const MeshOrder& order() const { return topology_->order; }
-  /// Returns an upper bound on the distance [m] of a vertex from origin(): that of the farthest corner of the box
-  /// around all vertices.
+  /// Returns an upper bound on the distance [m] of a vertex from origin(), of a grid also before: that of the farthest corner of
+  /// the box around all vertices.
   double radius() const { return radius_; }
 
   /// Returns the box along the axes of M that contains every vertex as stored [m].
@@ -123,12 +134,16 @@ class TriangleMesh {
 
   bool exchange(std::vector<float>& sent);
   bool measure();
+  bool takeBounds(const Eigen::AlignedBox3d& bounds);
+  void roundTo(const Eigen::AlignedBox3d& bounds);
 
   std::shared_ptr<const Topology> topology_;  // shared by all deformations
   std::vector<float> offsets_;                // at their places
   std::vector<float> spare_;                  // only if the vertices are renumbered
   std::vector<std::uint64_t> existing_;       // of each cluster; empty: all
   VertexBlocks blocks_;
+  std::vector<float> before_;  // of a grid, at their places
+  VertexBlocks blocks_in_motion_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   double radius_ = 0.0;
   double rounding_ = 0.0;

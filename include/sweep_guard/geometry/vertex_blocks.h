@@ -20,6 +20,10 @@ class VertexBlocks {
   /// @throws InvalidInput if the environment variable SWEEP_GUARD_SIMD is wrong (simd::kernels())
   bool measure(const std::vector<float>& positions);
 
+  /// Grows each box, and that around all, to hold the box at its place among others.
+  /// @param others  as many (asserted)
+  void include(const VertexBlocks& others);
+
   size_t count() const { return count_; }  ///< number of boxes, without padding
 
   /// Returns one array per side of the boxes [m], padded to a multiple of simd::kPadding with unspecified values; valid
