@@ -37,6 +37,8 @@ class BodyPrediction {
   /// @param[out] prediction  overwritten; must outlive the test; its buffers are used again
   void begin(const BodyPredictionRequest& request, Prediction& prediction);
   bool done() const;
+  /// Returns the workpiece that step() goes on with; null if it begins with the next.
+  const Workpiece* underTest() const { return checker_.done() ? nullptr : inOrder(next_ - 1).get(); }
   /// Begins the test against the next workpiece, or tests one sweep, or one half of a sweep. Not if done().
   void step(Detector& detector);
   /// Reports the workpiece under test, and those that follow, as failed.

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "guard/detectors.h"
 #include "guard/displacements.h"
 #include "guard/guard_run.h"
 #include "guard/guarded_body.h"
@@ -35,14 +36,16 @@ Guard::Guard(std::shared_ptr<const Robot> robot, std::unique_ptr<Detector> detec
 Guard::Guard(std::vector<Tool> bodies, std::shared_ptr<const Robot> robot, std::unique_ptr<Detector> detector,
              const GuardOptions& options)
     : bodies_(guarded(std::move(bodies), options)),
-      detector_(std::move(detector)),
+      detectors_(std::make_unique<Detectors>()),
       displacements_(std::make_unique<DisplacementCache>()),
       options_(options),
       predictor_(options.predictor, std::move(robot)),
       budget_(std::make_unique<TimeBudget>(options.horizon, options.cycle)),
       run_(std::make_unique<Run>(*this)),
       no_intentions_(std::make_shared<const Intentions>()),
-      intentions_(no_intentions_) {}
+      intentions_(no_intentions_) {
+  detectors_->chosen = std::move(detector);
+}
 
 Guard::~Guard() = default;
 
@@ -68,7 +71,7 @@ void Guard::sweep(const PoseWithFrames& pose, const Workpieces& workpieces, Swee
 }
 
 SweepSetup Guard::sweepSetup(const GuardedBody& body) const {
-  return {body.tool,          *detector_,
+  return {body.tool,          *detectors_,
           options_.sweep,     *displacements_,
           options_.allowed,   *intentions(),
           *frames_,           {options_.predictor.max_speed, options_.predictor.max_turn_rate},
@@ -111,7 +114,7 @@ bool Guard::isWithin(double distance, const Workpiece& workpiece) {
     const std::vector<Eigen::Isometry3d> path_M = {X_WM->second.inverse() * newest_->bodies[i].X_WB};
     const ContactPolicy contact(tool(i), workpiece, &options_.allowed);
     const PathRequest request{tool(i), path_M, workpiece.mesh_M, options, [this] { throwIfStopping(); }, {}, contact};
-    return checkPath(*detector_, request).all.contact();
+    return checkPath(detectors_->of(workpiece), request).all.contact();
   };
   for (size_t i = 0; i < bodies_.size(); ++i) {
     if (is_within(i)) return true;
@@ -140,7 +143,7 @@ void Guard::exchange(GuardChange& change) {
   const TimeBudget budget(change.options.horizon, change.options.cycle);
   change.options.clock = options_.clock;
   std::swap(options_, change.options);
-  if (change.detector) std::swap(detector_, change.detector);
+  if (change.detector) std::swap(detectors_->chosen, change.detector);
   for (size_t i = 0; i < bodies_.size(); ++i) {
     GuardedBody& body = *bodies_[i];
     if (change.detector || !change.bodies.empty()) body.sweeps.forgetContacts();

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "common/floating_point.h"
+#include "guard/detectors.h"
 #include "guard/guarded_body.h"
 #include "guard/time_budget.h"
 
@@ -130,7 +131,8 @@ void Guard::Run::step() {
   if (guard_.stopping_) {
     running.giveUp(kShuttingDown);
   } else {
-    running.step(*guard_.detector_);
+    const Workpiece* const workpiece = running.underTest();
+    running.step(workpiece == nullptr ? *guard_.detectors_->chosen : guard_.detectors_->of(*workpiece));
   }
   goOn();
 }

@@ -59,6 +59,9 @@ void checkLimits(const IntentionRequest& request) {
 Intention intentionOf(const IntentionRequest& request, const Workpieces& workpieces, SteadyTime now) {
   if (request.takesBack()) return {request.mesh_id, nullptr, {}};
   const Workpiece& workpiece = workpieceOf(request.mesh_id, workpieces);
+  if (workpiece.of_camera) {
+    throw InvalidInput("'" + workpiece.id + "' is what a camera sees: its triangles are pixels, and stand for no region");
+  }
   checkLimits(request);
   Intention intention{request.mesh_id, workpiece.mesh_M.sharedTriangles(), regionOf(request, workpiece), request.depth,
                       request.tool_links};

@@ -12,13 +12,15 @@ namespace {
 constexpr double kMergeTolerance = 1e-3;  // of the tool's bounding radius
 constexpr Duration kMaxUpdateInterval = std::chrono::milliseconds(500);
 constexpr size_t kMaxDeformations = 512;  // as a 1 kHz mesh has in that time
+constexpr size_t kMaxImages = 17;         // of a camera, each some megabytes: 16 and the one before them
 
 // Poses far behind the mesh would need ever more deformations, and an ever wider test.
 // @returns whether one is forgotten
 bool forgetLateDeformations(const Workpiece& newest, Workpieces& deformations) {
   bool forgotten = false;
+  const size_t most = newest.of_camera ? kMaxImages : kMaxDeformations;
   while (deformations.size() > 1 &&
-         (newest.stamp - deformations[1]->stamp > kMaxUpdateInterval || deformations.size() > kMaxDeformations)) {
+         (newest.stamp - deformations[1]->stamp > kMaxUpdateInterval || deformations.size() > most)) {
     deformations.erase(deformations.begin());
     forgotten = true;
   }
@@ -148,18 +150,22 @@ void MeasuredSweeps::sweepReplaced(const SweepSetup& setup, const PoseWithFrames
 void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<const Workpiece>& workpiece,
                                  Swept& swept, SweepReport& report, SweptObject& object) {
   Passage passage = passageTo(setup, workpiece, swept, object);
-  const bool left_out =
-      setup.several && staysOutOfReach(setup, passage.history, passage.next, passage.last, passage.mesh);
+  const bool left_out = setup.several && std::all_of(meshes_.begin(), meshes_.end(), [&](const MovingMesh& mesh) {
+                          return staysOutOfReach(setup, passage.history, passage.next, passage.last, mesh);
+                        });
   if (left_out) {
     leaveOut(setup, /*has_new_poses=*/passage.next == passage.begin || passage.begin < passage.last, swept.cache,
              object.result);
   } else {
     cache_ = swept.cache;
+    Detector& detector = setup.detectors.of(*workpiece);
     const ContactPolicy contact(setup.tool, *workpiece, &setup.allowed, &setup.intentions);
     while (nextMotion(setup, object.result, passage)) {
-      SweepResult& result = sweep_checker_.check(
-          setup.detector, {setup.tool, sub_motions_M_, passage.mesh, setup.options, cache_, contact});
-      keep(passage, report.end, result, object);
+      for (const MovingMesh& mesh : meshes_) {
+        SweepResult& result =
+            sweep_checker_.check(detector, {setup.tool, sub_motions_M_, mesh, setup.options, cache_, contact});
+        keep(passage, report.end, result, object);
+      }
     }
   }
   endPassage(passage, workpiece, swept);
@@ -175,15 +181,33 @@ MeasuredSweeps::Passage MeasuredSweeps::passageTo(const SweepSetup& setup,
   swept.before = swept.pose;
   const size_t begin = history.lastUpTo(swept.pose);
   const Time stamp = history[begin].stamp;
-  const auto& from = deformationAt(stamp, *workpiece, swept);
-  const MovingMesh mesh = movingMesh(*workpiece, *from, setup.displacements.between(from, workpiece));
+  addMeshes(setup, stamp, workpiece, swept, object);
   const auto& before = swept.deformations.back();
-  const bool again = workpiece != before && mesh.moved();
+  const bool again = workpiece != before && meshes_.back().moved();
   object.workpiece = workpiece;
   object.interval_start = stamp;
-  object.behind = swept.incomplete ? from->stamp - stamp : Duration::zero();
   object.result.clear();
-  return {history, mesh, begin, history.size() - 1, again ? std::min(begin, history.lastUpTo(before->stamp)) : begin};
+  return {history, begin, history.size() - 1, again ? std::min(begin, history.lastUpTo(before->stamp)) : begin};
+}
+
+// A mesh moves from the deformation at the time of the pose to the newest. What a camera saw may have gone at any time since that
+// image, and have come at any time before the next one: until then it rests.
+void MeasuredSweeps::addMeshes(const SweepSetup& setup, Time pose, const std::shared_ptr<const Workpiece>& workpiece,
+                               Swept& swept, SweptObject& object) {
+  const auto& from = deformationAt(pose, *workpiece, swept);
+  object.behind = swept.incomplete ? from->stamp - pose : Duration::zero();
+  meshes_.clear();
+  if (!workpiece->of_camera) {
+    meshes_.push_back(movingMesh(*workpiece, *from, setup.displacements.between(from, workpiece)));
+    return;
+  }
+  meshes_.emplace_back(from->mesh_M);
+  for (size_t i = 1; i < swept.deformations.size(); ++i)
+    meshes_.push_back(MovingMesh::grid(swept.deformations[i]->mesh_M));
+  const Workpiece& before = *swept.deformations.back();
+  if (workpiece.get() == &before) return;
+  meshes_.push_back(MovingMesh::grid(workpiece->mesh_M));
+  if (workpiece->updates > before.updates + 1) object.behind = std::max(object.behind, workpiece->stamp - before.stamp);
 }
 
 void MeasuredSweeps::endPassage(const Passage& passage, const std::shared_ptr<const Workpiece>& workpiece,

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "guard/detectors.h"
 #include "guard/displacements.h"
 #include "guard/moving_mesh.h"
 #include "guard/pose_histories.h"
@@ -20,7 +21,7 @@ namespace sweep_guard_core {
 
 struct SweepSetup {
   const Tool& tool;
-  Detector& detector;
+  Detectors& detectors;
   const SweepOptions& options;
   DisplacementCache& displacements;
   const AllowedPairs& allowed;
@@ -71,10 +72,9 @@ class MeasuredSweeps {
     bool reported = false;     // of triangles that were replaced: by the last sweep
   };
 
-  // How far the sweep of a workpiece has come: poses by their indices.
+  // How far the sweep of a workpiece has come: poses by their indices. It sweeps meshes_.
   struct Passage {
     const PoseHistory& history;
-    MovingMesh mesh;
     size_t begin;  // where the last sweep ended; what is before is swept again
     size_t last;
     size_t next;          // where the next segment begins
@@ -95,6 +95,8 @@ class MeasuredSweeps {
   void sweepReplaced(const SweepSetup& setup, const PoseWithFrames& pose, SweepReport& report);
   Passage passageTo(const SweepSetup& setup, const std::shared_ptr<const Workpiece>& workpiece, Swept& swept,
                     SweptObject& object);
+  void addMeshes(const SweepSetup& setup, Time pose, const std::shared_ptr<const Workpiece>& workpiece, Swept& swept,
+                 SweptObject& object);
   static void endPassage(const Passage& passage, const std::shared_ptr<const Workpiece>& workpiece, Swept& swept);
   bool nextMotion(const SweepSetup& setup, const SweepResult& found, Passage& passage);
   bool nextSegment(const SweepSetup& setup, Passage& passage);
@@ -115,6 +117,7 @@ class MeasuredSweeps {
   std::optional<SteadyTime> waiting_since_;  // when the first pose passed since then was received
   Path path_M_;                              // of the segment under test
   std::vector<Motion> sub_motions_M_;        // of a motion along the segment
+  std::vector<MovingMesh> meshes_;           // that the workpiece under test may have been
   SweepChecker sweep_checker_;
   SweepCache cache_;  // kept apart while the sweep may still fail
 };

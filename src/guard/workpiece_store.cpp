@@ -25,6 +25,10 @@ InvalidInput attachedAnd(const std::string& id, const std::string& why) {
   return InvalidInput(why + ", but '" + id + "' is attached to the tool: detach it first");
 }
 
+void requireNoCamera(const Workpiece& current) {
+  if (current.of_camera) throw InvalidInput("'" + current.id + "' is a camera: give the workpiece another id");
+}
+
 void requireRevision(const Workpiece& attached, std::uint32_t revision) {
   if (revision != attached.revision) throw attachedAnd(attached.id, "its revision has changed");
 }
@@ -71,14 +75,15 @@ UpdateOutcome WorkpieceStore::set(Workpiece next, Time latest) {
     return UpdateOutcome::kStored;
   }
   const auto current = find(next.id);
+  if (current) requireNoCamera(*current);
   const bool same = current && sameTriangles(current->mesh_M, next.mesh_M);
   if (current) {
     if (same && next.revision == current->revision && next.stamp < current->stamp && current->stamp <= latest) {
       return UpdateOutcome::kIgnored;
     }
     requireOrder(*current, next.stamp, latest);
-  } else if (snapshot().size() >= kMaxWorkpieces) {
-    throw InvalidInput("there are " + std::to_string(kMaxWorkpieces) + " workpieces already: remove some");
+  } else {
+    requireRoom();
   }
   if (same && next.frame == current->frame) countUpdate(*current, next);
   buffers_.erase(next.id);
@@ -86,11 +91,26 @@ UpdateOutcome WorkpieceStore::set(Workpiece next, Time latest) {
   return UpdateOutcome::kStored;
 }
 
+void WorkpieceStore::requireRoom() const {
+  if (snapshot().size() < kMaxWorkpieces) return;
+  throw InvalidInput("there are " + std::to_string(kMaxWorkpieces) + " workpieces already: remove some");
+}
+
+void WorkpieceStore::show(const std::shared_ptr<const Workpiece>& image, Time latest) {
+  if (const auto current = find(image->id)) {
+    if (!current->of_camera) throw InvalidInput("there is a workpiece '" + image->id + "': give the camera another id");
+    requireOrder(*current, image->stamp, latest);
+  } else {
+    requireRoom();
+  }
+  replace(image);
+}
+
 // It may overtake the mesh, which is a message of another topic.
 UpdateOutcome WorkpieceStore::confirm(const Deformation& deformation) const {
   const auto held = attached(deformation.id);
   const std::shared_ptr<const Workpiece> current = held ? held->workpiece : find(deformation.id);
-  const bool same = current && current->revision == deformation.revision && current->frame == deformation.frame &&
+  const bool same = current && !current->of_camera && current->revision == deformation.revision && current->frame == deformation.frame &&
                     current->stamp <= deformation.stamp;
   return same ? UpdateOutcome::kConfirmed : UpdateOutcome::kIgnored;
 }
@@ -108,6 +128,7 @@ UpdateOutcome WorkpieceStore::deform(const Deformation& deformation, Time latest
   }
   const auto current = find(deformation.id);
   if (!current) return wasRemoved(deformation) ? UpdateOutcome::kIgnored : UpdateOutcome::kUnknownWorkpiece;
+  requireNoCamera(*current);
   if (current->revision != deformation.revision) {
     throw InvalidInput("vertices have revision " + std::to_string(deformation.revision) + ", their mesh has " +
                        std::to_string(current->revision));
@@ -173,6 +194,7 @@ bool WorkpieceStore::remove(const std::string& id, Time stamp) {
   const Lock lock(mutex_);
   const auto found = std::lower_bound(workpieces_.begin(), workpieces_.end(), id, before);
   if (found == workpieces_.end() || (*found)->id != id) return false;
+  requireNoCamera(**found);
   removed_.emplace_back(id, std::max(stamp, (*found)->stamp));
   if (removed_.size() > kMaxRemoved) removed_.pop_front();
   workpieces_.erase(found);

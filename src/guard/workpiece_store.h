@@ -37,7 +37,7 @@ enum class UpdateOutcome {
 
 /// Keeps the newest snapshot of every workpiece. Snapshots do not change while they are shared. Unshared
 /// snapshots are reused for deformations, which then allocate nothing. One thread calls set(), deform() and
-/// remove(); any thread may call the others. A call that throws keeps the old snapshot.
+/// remove(), one show(); any thread may call the others. A call that throws keeps the old snapshot.
 ///
 /// An attached workpiece is part of the tool: it has no snapshot, but its shape is watched. While it keeps its shape, to
 /// kRigid, set() and deform() return kStored and change nothing; otherwise they throw InvalidInput. remove() finds nothing.
@@ -72,10 +72,18 @@ class WorkpieceStore {
   ///     TriangleMesh::deform() refuses the positions
   UpdateOutcome deform(const Deformation& deformation, Time latest);
 
+  /// Adds what a camera sees, or puts it in place of the image before. One thread, which may be another than that of set().
+  /// @param image  Workpiece::of_camera
+  /// @param latest  as for set()
+  /// @throws InvalidInput if the stamp is older than that of the image before, the workpiece of the id is none of a camera, or
+  ///     there are 1000 workpieces already
+  void show(const std::shared_ptr<const Workpiece>& image, Time latest);
+
   /// Removes a workpiece.
   /// @param stamp  vertices of this workpiece that are stamped no later than this, or than its snapshot, are ignored; not after
   ///     clearStamps() or 64 more removals
   /// @returns false if there is no such workpiece
+  /// @throws InvalidInput if it is what a camera sees
   bool remove(const std::string& id, Time stamp);
 
   /// A workpiece that is part of the tool, and where the tool's body B holds it.
@@ -109,6 +117,7 @@ class WorkpieceStore {
     std::vector<float> positions_M;
   };
 
+  void requireRoom() const;
   std::shared_ptr<const Workpiece> find(const std::string& id) const;
   std::shared_ptr<Workpiece> unusedSnapshot(const Workpiece& current);
   void replace(std::shared_ptr<const Workpiece> snapshot);

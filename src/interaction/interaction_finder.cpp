@@ -80,6 +80,7 @@ void InteractionFinder::find(const PoseWithFrames& pose, const Workpieces& workp
   interaction.total = Wrench();
   eraseRemoved(workpieces, motions_);
   for (const auto& workpiece : workpieces) {
+    if (workpiece->of_camera) continue;
     const auto X_WM = pose.X_WM.find(workpiece->frame);
     if (X_WM == pose.X_WM.end()) {
       motions_.erase(workpiece->id);

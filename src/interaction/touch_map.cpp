@@ -31,6 +31,7 @@ bool isOfTheSameTriangles(const Workpiece& a, const Workpiece& b) {
 void TouchMap::add(const SweepReport& report, const Workpieces& workpieces) {
   forgetRemoved(workpieces);
   for (const SweptObject& object : report.objects) {
+    if (object.workpiece->of_camera) continue;
     Touched& touched = touchedOf(object.workpiece);
     findTouched(object.result);
     if (in_sweep_.empty()) continue;

@@ -30,7 +30,7 @@ void SurfaceMotion::update(const std::shared_ptr<const Workpiece>& workpiece, co
   X_WM_ = X_WM;
   stamp_ = stamp;
   if (workpiece_ == workpiece) return;
-  if (known && sameTriangles(workpiece_->mesh_M, workpiece->mesh_M)) {
+  if (known && !workpiece->of_camera && sameTriangles(workpiece_->mesh_M, workpiece->mesh_M)) {
     deform(*workpiece_, *workpiece);
   } else {
     deforms_ = false;

@@ -12,7 +12,7 @@
 namespace sweep_guard_core {
 
 /// Bounds how fast the vertices of one workpiece move in the fixed frame W: from the two latest deformations and the two
-/// latest poses of its frame.
+/// latest poses of its frame. What a camera sees counts as at rest: nobody knows which point of it came from where.
 class SurfaceMotion {
  public:
   /// Takes a newer snapshot and a newer pose of its frame.

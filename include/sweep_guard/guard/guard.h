@@ -13,6 +13,7 @@
 
 namespace sweep_guard_core {
 
+struct Detectors;
 class DisplacementCache;
 struct GuardedBody;
 class PredictionRun;
@@ -32,6 +33,10 @@ class TimeBudget;
 /// both meshes: the tool's path since the earlier stamp is swept again against the moving mesh, as far as its poses are
 /// kept. Swept poses are kept for 0.5 s. An update with other triangles in the same frame is no motion: the tool's path since the
 /// last sweep is swept against the triangles from before and against the new ones.
+///
+/// What a camera saw (Workpiece::of_camera) is no motion as a whole. From image to image, the tool's path since the earlier stamp
+/// is swept again against what the earlier image shows, at rest, and against the way of each vertex to the later one. `halfspace`
+/// tests it, whatever the detector.
 ///
 /// Of several poses swept at once, consecutive segments are replaced by one straight motion where no tool point
 /// deviates by more than a thousandth of the tool's bounding radius and the rotation is at most `max_rotation`. The
@@ -149,7 +154,7 @@ class Guard {
 
   std::atomic<bool> stopping_ = false;
   std::vector<std::unique_ptr<GuardedBody>> bodies_;
-  std::unique_ptr<Detector> detector_;
+  std::unique_ptr<Detectors> detectors_;
   std::unique_ptr<DisplacementCache> displacements_;
   GuardOptions options_;
   MotionPredictor predictor_;

@@ -24,7 +24,10 @@ struct Workpiece {
   TriangleMesh mesh_M;
   /// Number of updates of the vertex positions since the triangles came, or came again in another frame.
   std::uint64_t updates = 0;
-  double path_length = 0.0;    ///< upper bound on any vertex's path length in M over these updates [m]
+  double path_length = 0.0;  ///< upper bound on any vertex's path length in M over these updates [m]
+  /// What a camera saw: the mesh is a grid, and `updates` is the number of the image. Whatever was not where its vertices were
+  /// before came or went since the image before.
+  bool of_camera = false;
   bool of_other_tool = false;  ///< a link of another tool: Guard::follow() moves its frame, and it does not age
 };
 
