@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "guard/intention_store.h"
+#include "guard/recent_poses.h"
 #include "guard/tool_distances.h"
 #include "guard/workpiece_store.h"
 #include "monitor/sweep_statistics.h"
@@ -47,6 +48,7 @@ class GuardState {
   sweep_guard_core::WorkpieceStore workpieces;
   sweep_guard_core::FrameMotionStore frame_motions;
   sweep_guard_core::ToolDistances distances;
+  sweep_guard_core::RecentPoses recent_poses;
 };
 
 }  // namespace sweep_guard_ros

@@ -7,6 +7,7 @@
 
 #include "common/heartbeat.h"
 #include "ros/guard/detector_test.h"
+#include "ros/input/future_stamp.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
 
@@ -177,10 +178,28 @@ void GuardSteps::measureDistances(const sweep_guard_core::PoseWithFrames& pose,
   dependencies_.distances->add(pose, workpieces, std::chrono::steady_clock::now(), measured_);
 }
 
+// Returns whether the newest pose is swept, and still counts.
+bool GuardSteps::sweptAll() const {
+  return swept_ && passed_.empty() && !placed_anew_.any && dependencies_.monitor.counts(checkpoint_);
+}
+
 void GuardSteps::sweepOn() {
-  const bool is_newest = swept_ && passed_.empty() && !placed_anew_.any;
-  const bool waits = is_newest && frames_known_to_ < swept_->pose.stamp;
-  if (!waits || !dependencies_.monitor.counts(checkpoint_)) return;
+  if (sweptAll() && frames_known_to_ < swept_->pose.stamp) sweepAgain();
+}
+
+void GuardSteps::show(const std::shared_ptr<const sweep_guard_core::Workpiece>& image) {
+  try {
+    dependencies_.workpieces.show(image, now().stamp + kFutureTolerance);
+  } catch (const sweep_guard_core::InvalidInput& error) {
+    const std::string refusal = "camera '" + image->id + "' refused: " + error.what();
+    dependencies_.monitor.meshRefused(image->id, refusal, image->received);
+    return log_.error(image->id, refusal);
+  }
+  dependencies_.monitor.meshAccepted(image->id, image->received);
+  if (sweptAll()) sweepAgain();
+}
+
+void GuardSteps::sweepAgain() {
   frames_known_to_ = follow(swept_->pose);
   const auto report = reports_.take();
   const sweep_guard_core::Workpieces workpieces = dependencies_.workpieces.snapshot();

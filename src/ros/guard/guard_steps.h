@@ -45,7 +45,7 @@ struct ToolShapes {
 
 struct GuardThreadDependencies {
   LiveParameters& parameters;
-  const sweep_guard_core::WorkpieceStore& workpieces;
+  sweep_guard_core::WorkpieceStore& workpieces;
   sweep_guard_core::WarningMonitor& monitor;
   sweep_guard_core::SweepStatistics& statistics;
   sweep_guard_core::WorkQueue& queue;
@@ -98,6 +98,10 @@ class GuardSteps {
   void sweep(sweep_guard_core::QueuedPose& queued);
   /// Sweeps against what is known further of frames, up to the newest pose. If it fails, the next sweep makes up for it.
   void sweepOn();
+  /// Puts what a camera sees into the store, and sweeps against it up to the newest pose. If a sweep fails, the next one makes up
+  /// for it.
+  /// @param image  as for WorkpieceStore::show()
+  void show(const std::shared_ptr<const sweep_guard_core::Workpiece>& image);
 
   /// Returns whether a prediction may begin: none has begun at the newest swept pose, and no pose was passed since, but for
   /// those that are `anew`.
@@ -129,6 +133,8 @@ class GuardSteps {
   void pass(const sweep_guard_core::PoseWithFrames& pose);
   void beginSweep(const sweep_guard_core::QueuedPose& queued, const sweep_guard_core::Workpieces& workpieces);
   void warn(const sweep_guard_core::SweepReport& report, const sweep_guard_core::QueuedPose& queued);
+  bool sweptAll() const;
+  void sweepAgain();
   void publish(const std::shared_ptr<sweep_guard_core::SweepReport>& report, const sweep_guard_core::QueuedPose& queued,
                const sweep_guard_core::Workpieces& workpieces);
   void measureDistances(const sweep_guard_core::PoseWithFrames& pose, const sweep_guard_core::Workpieces& workpieces);

@@ -128,6 +128,10 @@ std::future<sweep_guard_core::PoseWithFrames> GuardThread::newestPose() {
   return dependencies_.queue.submit<sweep_guard_core::PoseWithFrames>([this] { return steps_.freshPose().pose; });
 }
 
+void GuardThread::show(const std::shared_ptr<const sweep_guard_core::Workpiece>& image) {
+  dependencies_.queue.submit<void>([this, image] { steps_.show(image); });
+}
+
 std::string GuardThread::acknowledge(const std::string& id) {
   std::string acknowledged;
   runInTime([&] { acknowledged = steps_.acknowledge(id); }, "nothing was acknowledged");

@@ -14,22 +14,28 @@ constexpr std::uint32_t kSilentInputs =
 
 }  // namespace
 
-Inputs::Inputs(const ros::NodeHandle& node, GuardState& state, MasterThread& master)
+Inputs::Inputs(const ros::NodeHandle& node, GuardState& state, GuardThread& guard, MasterThread& master)
     : state_(state),
-      poses_(node, state.parameters, {state.frames, state.workpieces, state.monitor, state.queue, state.frame_motions}),
+      poses_(node, state.parameters,
+             {state.frames, state.workpieces, state.monitor, state.queue, state.frame_motions, state.recent_poses}),
       meshes_(node, state.parameters.initial(), state.workpieces, state.monitor),
       other_tools_(node, state.parameters.initial(),
                    {[this](const Worker::Job& job) { meshes_.changeStore(job); }, state.workpieces, state.frame_motions,
                     state.monitor}),
+      cameras_(node, {state.frames, state.parameters, state.monitor, state.recent_poses,
+                      [&guard](const auto& image) { guard.show(image); }}),
       peer_watch_(master, [&state, warning = sweep_guard_core::Warning()]() mutable {
         state.monitor.warning(now(), warning);
         return (warning.reasons & kSilentInputs) != 0;
-      }) {}
+      }) {
+  state.monitor.require(requiredIds(state.parameters.initial()));
+}
 
 void Inputs::start() {
   state_.frames.start(state_.supervisor);
   meshes_.start(state_.supervisor);
   other_tools_.start(state_.supervisor);
+  cameras_.start(state_.supervisor);
   poses_.start(state_.supervisor);
 }
 

@@ -1,19 +1,22 @@
 #pragma once
 
+#include "ros/camera/cameras.h"
 #include "ros/connection/peer_watch.h"
 #include "ros/guard/guard_state.h"
+#include "ros/guard/guard_thread.h"
 #include "ros/input/mesh_input.h"
 #include "ros/input/other_tools.h"
 #include "ros/input/pose_input.h"
 
 namespace sweep_guard_ros {
 
-/// Receives what the guard needs to know: transforms, poses, meshes and other tools, each in a thread of its own. Connects
+/// Receives what the guard needs to know: transforms, poses, meshes, other tools and images, each in a thread of its own. Connects
 /// them again to publishers that were out of reach.
 class Inputs {
  public:
   /// @param master  looks for publishers; must be stopped before this is destroyed
-  Inputs(const ros::NodeHandle& node, GuardState& state, MasterThread& master);
+  /// @param guard   must outlive this
+  Inputs(const ros::NodeHandle& node, GuardState& state, GuardThread& guard, MasterThread& master);
 
   void start();
   void takeEarly() { meshes_.takeEarly(); }               ///< as MeshInput
@@ -22,12 +25,14 @@ class Inputs {
 
   const PoseInput& poses() const { return poses_; }
   const MeshInput& meshes() const { return meshes_; }
+  const Cameras& cameras() const { return cameras_; }
 
  private:
   GuardState& state_;
   PoseInput poses_;
   MeshInput meshes_;
   OtherTools other_tools_;
+  Cameras cameras_;
   PeerWatch peer_watch_;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "ros/input/checked_header.h"
 #include "ros/input/future_stamp.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
@@ -27,13 +28,6 @@ constexpr size_t kOverhead = 512;              // of a job and its message, besi
 constexpr size_t kMaxEarly = 1024;             // meshes
 constexpr size_t kMaxPassedOver = 100;         // ids
 constexpr std::uint32_t kMeshesQueued = 1000;  // each message may be of another workpiece; taken from it at once
-
-void checkHeader(const std_msgs::Header& header) {
-  if (header.frame_id.empty()) throw InvalidInput("header.frame_id is empty: name the frame of the vertices");
-  if (!isName(header.frame_id)) throw InvalidInput("header.frame_id has more than 128 or unprintable characters");
-  sweep_guard_core::Timestamps timestamps{fromMsg(header.stamp), {}};
-  if (liesInFuture(timestamps)) throw InvalidInput(kFutureStampText);
-}
 
 sweep_guard_core::Time latestStamp() { return now().stamp + kFutureTolerance; }
 
@@ -68,9 +62,7 @@ MeshInput::MeshInput(const ros::NodeHandle& node, const Parameters& parameters,
       mesh_(
           subscribe<sweep_guard::DeformableMesh>(thread_.on(node), "mesh", parameters.max_message_size, mesh_record_)),
       vertices_(subscribe<sweep_guard::MeshVertices>(thread_.on(node), "mesh_vertices", parameters.max_message_size,
-                                                     vertices_record_)) {
-  monitor_.require(mesh_ids_);
-}
+                                                     vertices_record_)) {}
 
 template <typename Msg>
 BoundedSubscriber MeshInput::subscribe(ros::NodeHandle node, const std::string& topic, size_t max_size,

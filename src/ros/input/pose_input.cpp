@@ -42,6 +42,7 @@ PoseInput::PoseInput(const ros::NodeHandle& node, const LiveParameters& live, co
       frames_(dependencies.frames),
       monitor_(dependencies.monitor),
       queue_(dependencies.queue),
+      recent_poses_(dependencies.recent_poses),
       resting_(live, frames_),
       watch_(live, record_),
       moving_frames_(fixed_frame_, {frames_, dependencies.frame_motions, monitor_, queue_, record_}),
@@ -302,6 +303,7 @@ void PoseInput::push(sweep_guard_core::SteadyTime received, const Checkpoint& ch
   for (sweep_guard_core::PoseWithFrames& pose : known_) {
     pose.received = received;
     pose.jump = jump;
+    recent_poses_.add(pose.stamp, pose.bodies);
   }
   const auto changed_from = path_.place(known_, late_.frame(), checkpoint, placed_);
   for (sweep_guard_core::QueuedPose& pose : placed_) {

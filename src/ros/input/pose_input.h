@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "guard/recent_poses.h"
 #include "guard/workpiece_store.h"
 #include "monitor/input_record.h"
 #include "monitor/sequence_gaps.h"
@@ -34,6 +35,7 @@ struct PoseInputDependencies {
   sweep_guard_core::WarningMonitor& monitor;
   sweep_guard_core::WorkQueue& queue;
   sweep_guard_core::FrameMotionStore& frame_motions;
+  sweep_guard_core::RecentPoses& recent_poses;
 };
 
 /// Takes tool poses from the topic `tool_pose` or from tf, and positions of joints from `joint_states`, and refuses bad
@@ -94,6 +96,7 @@ class PoseInput {
   Frames& frames_;
   sweep_guard_core::WarningMonitor& monitor_;
   sweep_guard_core::WorkQueue& queue_;
+  sweep_guard_core::RecentPoses& recent_poses_;
 
   Checkpoint checkpoint_;                                 // of the previous input
   std::optional<sweep_guard_core::Time> last_transform_;  // used by onTransforms() only

@@ -3,13 +3,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <fstream>
+#include <memory>
 #include <utility>
 
 #include "common/number_text.h"
-#include "monitor/workpiece_sizes.h"
+#include "ros/output/workpiece_report.h"
 #include "ros/parameters/parameter_changes.h"
 #include "sweep_guard/common/quantile.h"
 #include "sweep_guard/ros/conversions.h"
@@ -24,14 +23,6 @@ using sweep_guard_core::SweepStatistics;
 using sweep_guard_core::toSeconds;
 
 constexpr double kMaxClockDifference = 1.0;  // [s]
-constexpr double kWorthSaying = 0.001;       // [m]
-
-std::string roundingText(const sweep_guard_core::Workpiece& workpiece) {
-  std::array<char, 32> rounding;
-  std::snprintf(rounding.data(), rounding.size(), "%.1f mm", 1e3 * workpiece.mesh_M.rounding());
-  return "'" + workpiece.id + "' is known to " + rounding.data() +
-         " only, for float32 rounds its coordinates: send them in a frame near it";
-}
 
 double residentMegabytes() {
   std::ifstream statm("/proc/self/statm");
@@ -55,32 +46,6 @@ void reportRefusal(const Frames& frames, const std::string& user, diagnostic_upd
   if (!is_told) status.mergeSummary(DiagnosticStatus::ERROR, refusal);
 }
 
-// Each with the rule that holds for it.
-void reportAges(const std::vector<std::pair<std::string, sweep_guard_core::Timestamps>>& heard,
-                const sweep_guard_core::WarningLimits& limits, diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const sweep_guard_core::Instant at = now();
-  for (const auto& [id, timestamps] : heard) {
-    const sweep_guard_core::Duration timeout = limits.meshTimeout(id);
-    if (sweep_guard_core::stale(timestamps, at, timeout))
-      status.mergeSummary(DiagnosticStatus::ERROR, "'" + id + "' is stale");
-    const std::string rule = timeout == sweep_guard_core::Duration::max()
-                                 ? std::string("never stale")
-                                 : "stale from " + sweep_guard_core::inSeconds(timeout) + " on";
-    status.addf("age of '" + id + "'", "%.3f s, %s", toSeconds(sweep_guard_core::age(timestamps, at)), rule.c_str());
-  }
-}
-
-// An id with a slash at its front has none in YAML's key.
-void reportUnusedRules(const Parameters& parameters, const sweep_guard_core::Workpieces& workpieces,
-                       diagnostic_updater::DiagnosticStatusWrapper& status) {
-  for (const std::string& id : parameters.ruled_ids) {
-    const auto is_ruled = [&](const auto& workpiece) { return workpiece->id == id || workpiece->id == "/" + id; };
-    const bool came = std::any_of(workpieces.begin(), workpieces.end(), is_ruled) ||
-                      parameters.attached.count(id) + parameters.attached.count("/" + id) > 0;
-    if (!came) status.mergeSummary(DiagnosticStatus::WARN, "no workpiece '" + id + "' so far (workpieces)");
-  }
-}
-
 }  // namespace
 
 Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, GuardState& state,
@@ -95,6 +60,10 @@ Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& pri
   updater_.add("tool", [this](Status& status) { reportTool(*state_.parameters.get(), status); });
   updater_.add("mesh", [this](Status& status) { mesh(status); });
   updater_.add("mesh vertices", [this](Status& status) { vertices(status); });
+  for (const auto& camera : inputs.cameras().all()) {
+    updater_.add("camera " + camera->camera().id, [this, &camera = *camera, counts = std::make_shared<Counts>()](
+                                                      Status& status) { this->camera(status, camera, *counts); });
+  }
   updater_.add("workpieces", [this](Status& status) { workpieces(status); });
   updater_.add("allowed contact", [this](Status& status) { allowed(status); });
   if (!state.parameters.initial().other_tools.empty())
@@ -205,37 +174,26 @@ void Diagnostics::input(Status& status, const Input& input, Counts& previous) co
 }
 
 void Diagnostics::workpieces(Status& status) const {
-  const sweep_guard_core::Workpieces workpieces = state_.workpieces.snapshot();
-  const auto parameters = state_.parameters.get();
-  status.summary(DiagnosticStatus::OK, std::to_string(workpieces.size()) + " workpieces");
-  if (workpieces.empty()) status.summary(DiagnosticStatus::STALE, "no workpiece yet");
-  for (const auto& workpiece : workpieces) {
-    status.addf("'" + workpiece->id + "'", "revision %u, %zu triangles in '%s'", workpiece->revision,
-                workpiece->mesh_M.triangles().size(), workpiece->frame.c_str());
-    if (workpiece->mesh_M.padding() > 0.0)
-      status.addf("padding of '" + workpiece->id + "' [m]", "%.6g", workpiece->mesh_M.padding());
-    if (workpiece->mesh_M.rounding() >= kWorthSaying)
-      status.mergeSummary(DiagnosticStatus::WARN, roundingText(*workpiece));
-    if (workpiece->mesh_M.closed() && workpiece->mesh_M.enclosure().partsOverlap())
-      status.add(
-          "force of '" + workpiece->id + "'",
-          "not valid while the tool is in it: closed parts of its surface overlap, and count twice there, or are too "
-          "many to tell");
-    if (workpiece->mesh_M.openEdges() == 0) continue;
-    std::string open;
-    sweep_guard_core::appendOpenSurface(workpiece->id, workpiece->mesh_M.openEdges(), open);
-    status.add("inside of '" + workpiece->id + "'", open);
-  }
-  reportAges(state_.monitor.heard(), parameters->limits, status);
-  reportUnusedRules(*parameters, workpieces, status);
-  for (const std::string& id : parameters->attached) status.add("'" + id + "'", "attached to the tool");
-  for (const std::string& id : inputs_.meshes().passedOver()) status.add("'" + id + "'", "not heard: none of mesh_ids");
-  const auto distances = state_.distances.get();
-  const std::string doubt = sweep_guard_core::doubtfulSizes(workpieces, distances);
-  if (!doubt.empty()) status.mergeSummary(DiagnosticStatus::WARN, doubt);
-  for (const auto& [id, size] : sweep_guard_core::workpieceSizes(workpieces, distances))
-    status.add("size of '" + id + "'", size);
+  reportWorkpieces(state_, inputs_.meshes().passedOver(), status);
   reportRefusal(state_.frames, "workpieces", status);
+}
+
+void Diagnostics::camera(Status& status, const CameraInput& camera, Counts& previous) const {
+  input(status, {camera.topic(), camera.publishers(), camera.record().summary(), /*continuous=*/true}, previous);
+  const auto parameters = state_.parameters.get();
+  const auto& links = parameters->robot_links;
+  if (const auto shares = camera.shares()) {
+    status.addf("pixels with a surface [%]", "%.1f", 100.0 * shares->seen);
+    status.addf("pixels of the robot itself [%]", "%.1f", 100.0 * shares->self);
+    if (shares->unplaced_links > 0)
+      status.mergeSummaryf(DiagnosticStatus::WARN, "%zu links of the robot are not in tf: they count as surroundings",
+                           shares->unplaced_links);
+  }
+  status.add("robot", links ? std::to_string(links->size()) + " links left out"
+                            : "only the tool is left out: " + parameters->why_no_links);
+  status.add("dropped", camera.dropped());
+  status.add("detector", "halfspace, whatever `detector` says");
+  reportRefusal(state_.frames, frameUserOf(camera.camera().id), status);
 }
 
 void Diagnostics::allowed(Status& status) const {

@@ -21,7 +21,7 @@ void reportDetector(const sweep_guard_core::SweepStatistics::Summary& statistics
 /// Reports what the tool and each of its links are made of.
 void reportTool(const Parameters& parameters, diagnostic_updater::DiagnosticStatusWrapper& status);
 
-/// Publishes on /diagnostics the warning, each input (source, publishers, rate, age, last error), the tool, the
+/// Publishes on /diagnostics the warning, each input (source, publishers, rate, age, last error), the tool, the cameras, the
 /// workpieces, which contact is allowed, other tools, the detector and its deadlines, the prediction, the time in each
 /// stage, the changed parameters, and the memory of the process.
 class Diagnostics {
@@ -52,6 +52,7 @@ class Diagnostics {
   void mesh(Status& status);
   void vertices(Status& status);
   void input(Status& status, const Input& input, Counts& previous) const;
+  void camera(Status& status, const CameraInput& camera, Counts& previous) const;
   void workpieces(Status& status) const;
   void allowed(Status& status) const;
   void otherTools(Status& status) const;

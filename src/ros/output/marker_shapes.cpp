@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/heartbeat.h"
+#include "sweep_guard/detection/submesh.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
@@ -122,12 +123,13 @@ void addTool(visualization_msgs::MarkerArray& array, const Marker& tool,
 void addSurface(Marker& list, const sweep_guard_core::TriangleMesh& mesh_M) {
   list.points.reserve(3 * mesh_M.triangles().size());
   list.colors.reserve(mesh_M.triangles().size());
-  for (const auto& [a, b, c] : mesh_M.triangles()) {
+  sweep_guard_core::Submesh(mesh_M).forEachTriangle([&](std::uint32_t i) {
+    const auto& [a, b, c] = mesh_M.triangles()[i];
     const std::array corners = {mesh_M.vertex(a), mesh_M.vertex(b), mesh_M.vertex(c)};
     for (const Eigen::Vector3d& corner : corners) list.points.push_back(point(corner));
     const double facing = std::abs(normalOf(corners[0], corners[1], corners[2]).dot(kLight));
     list.colors.push_back(shaded(list.color, 0.5 + 0.5 * facing));
-  }
+  });
 }
 
 double liftOff(const sweep_guard_core::Tool& tool) {

@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "ros/parameters/parameter_text.h"
+#include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/parameters/parameter_reader.h"
 
 namespace sweep_guard_ros {
@@ -68,6 +69,21 @@ Groups ParameterReader::groupsByName(const std::string& key, const std::vector<G
   }
   describe({key, shownGroups(groups, entries), std::string("{}"), 0.0, 0.0, {}, wanted, effect});
   return groups;
+}
+
+void ParameterReader::groups(const std::string& key, const std::string& wanted, const std::string& effect,
+                             const std::function<std::string(XmlRpc::XmlRpcValue&)>& take) {
+  XmlRpc::XmlRpcValue list;
+  std::vector<std::string> entries;
+  const bool set = getList(key, wanted, list);
+  for (int i = 0; set && i < list.size(); ++i) {
+    try {
+      entries.push_back(take(list[i]));
+    } catch (const sweep_guard_core::InvalidInput& error) {
+      refuse(key, list, error.what());
+    }
+  }
+  describe({key, bracketed(entries), std::string("[]"), 0.0, 0.0, {}, wanted, effect});
 }
 
 }  // namespace sweep_guard_ros

@@ -291,6 +291,10 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
                  "listened to. []: all ids that come.");
   parameters.mesh_ids.insert(ids.begin(), ids.end());
   readWorkpieces(read, parameters);
+  parameters.cameras = readCameras(read);
+  for (const CameraParameters& camera : parameters.cameras)
+    addRule(camera.id, camera.timeout, parameters.limits.mesh_timeouts);
+  if (!parameters.cameras.empty()) readRobotLinks(read, before, parameters);
   parameters.other_tools = read.nodes(
       "other_tools",
       "Nodes of the guards of other tools, as in [/left/sweep_guard]: their links are workpieces, too, which "
@@ -320,6 +324,12 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
 }
 
 }  // namespace
+
+std::set<std::string> requiredIds(const Parameters& parameters) {
+  std::set<std::string> ids = parameters.mesh_ids;
+  for (const CameraParameters& camera : parameters.cameras) ids.insert(camera.id);
+  return ids;
+}
 
 std::shared_ptr<const sweep_guard_core::Robot> articulatedRobot(const Parameters& parameters) {
   if (!parameters.articulated) return nullptr;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "ros/parameters/camera_parameters.h"
 #include "ros/tool/tool_model.h"
 #include "sweep_guard/guard/guard.h"
 #include "sweep_guard/interaction/interaction_finder.h"
@@ -40,10 +41,15 @@ struct Parameters {
   sweep_guard_core::Duration joint_timeout;                          ///< of the others, and of the tool pose
   std::shared_ptr<const RobotModel> robot;  ///< whose links are the tool; null: nothing that joints move
   std::string why_no_robot;                 ///< why it is null
-  double tool_padding;                      ///< [m]
-  std::set<std::string> attached;           ///< workpieces that are part of the tool, as links of these names (~attach)
-  std::string tool_description;             ///< shape and source of the tool, for people
-  std::vector<LinkShape> link_shapes;       ///< what each link is made of, without what is attached; none of a cylinder
+  std::string robot_description;            ///< name of the parameter that holds the URDF
+  std::vector<std::string> mesh_roots;      ///< see locateMesh()
+  /// Pieces of all links of the robot description, by the link that is their frame, in which cameras may see them; null: none.
+  std::shared_ptr<const std::map<std::string, std::vector<sweep_guard_core::ConvexPiece>>> robot_links;
+  std::string why_no_links;            ///< why it is null
+  double tool_padding;                 ///< [m]
+  std::set<std::string> attached;      ///< workpieces that are part of the tool, as links of these names (~attach)
+  std::string tool_description;        ///< shape and source of the tool, for people
+  std::vector<LinkShape> link_shapes;  ///< what each link is made of, without what is attached; none of a cylinder
   sweep_guard_core::DetectorChoice detector;  ///< as configured, until it is replaced by one that is available
   SelfTest self_test;
   int cross_check;  ///< one query of the detector out of this many is asked twice; 0: none
@@ -61,13 +67,17 @@ struct Parameters {
   std::set<std::string> ruled_ids;           ///< ids for which there is a rule of their own
   std::set<std::string> mesh_ids;            ///< workpieces that must be there; empty: all that come
   std::vector<std::string> other_tools;      ///< nodes of their guards
-  bool allow_several_publishers;             ///< of tool poses
+  std::vector<CameraParameters> cameras;
+  bool allow_several_publishers;  ///< of tool poses
   size_t max_triangles;
   size_t max_message_size;               ///< [bytes]
   size_t max_memory;                     ///< of the node's process [MiB]; 0: no limit
   ParameterReader::Settings settings;    ///< as read
   std::vector<ParameterInfo> described;  ///< always the same keys in the same order
 };
+
+/// Returns the workpieces that must be there: `mesh_ids` and the cameras.
+std::set<std::string> requiredIds(const Parameters& parameters);
 
 /// Returns the robot whose joints move the tool; null: none do.
 std::shared_ptr<const sweep_guard_core::Robot> articulatedRobot(const Parameters& parameters);

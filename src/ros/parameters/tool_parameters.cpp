@@ -161,6 +161,8 @@ void readTool(ParameterReader& read, const Parameters* before, Parameters& param
   read.ignore(description);
   ToolModelOptions options = readModelOptions(read, parameters.tool_frame, padding);
   options.of_root = parameters.tool_source == ToolSource::kJointStates;
+  parameters.robot_description = description;
+  parameters.mesh_roots = options.mesh_roots;
   const bool joint_states = read.flag(
       "tool/joint_states", false,
       "urdf only: joints of the tool move, and `joint_states` says how. tool_frame must be a link that none of "
@@ -201,6 +203,27 @@ void readTool(ParameterReader& read, const Parameters* before, Parameters& param
   parameters.bodies = parameters.articulated
                           ? std::shared_ptr<const Bodies>(parameters.robot, &parameters.robot->robot.tools)
                           : std::make_shared<const Bodies>(Bodies{*parameters.tool});
+}
+
+// One hull for each mesh: what is in its hollows is hidden with it.
+void readRobotLinks(ParameterReader& read, const Parameters* before, Parameters& parameters) {
+  if (before != nullptr) {
+    parameters.robot_links = before->robot_links;
+    parameters.why_no_links = before->why_no_links;
+    return;
+  }
+  ToolModelOptions options;
+  options.geometry = LinkGeometry::kEither;
+  options.mesh_depth = 0;
+  options.mesh_roots = parameters.mesh_roots;
+  const std::string urdf = read.searchText(parameters.robot_description);
+  parameters.why_no_links = "there is no parameter '" + parameters.robot_description + "'";
+  if (urdf.empty()) return;
+  try {
+    parameters.robot_links = std::make_shared<const decltype(loadLinks(urdf, options))>(loadLinks(urdf, options));
+  } catch (const sweep_guard_core::InvalidInput& error) {
+    parameters.why_no_links = error.what();
+  }
 }
 
 }  // namespace sweep_guard_ros

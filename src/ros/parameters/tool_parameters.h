@@ -10,4 +10,8 @@ namespace sweep_guard_ros {
 /// @throws sweep_guard_core::InvalidInput as loadParameters()
 void readTool(ParameterReader& read, const Parameters* before, Parameters& parameters);
 
+/// Makes pieces of all links of the robot description, if there is one. After readTool(); `before` as there.
+/// @param parameters  gets them, or why there are none
+void readRobotLinks(ParameterReader& read, const Parameters* before, Parameters& parameters);
+
 }  // namespace sweep_guard_ros

@@ -99,6 +99,7 @@ std::shared_ptr<const Workpiece> AttachService::workpieceOf(const std::string& i
   const auto found = std::find_if(workpieces.begin(), workpieces.end(), same);
   if (found == workpieces.end()) throw InvalidInput("there is no workpiece '" + id + "'");
   if ((*found)->of_other_tool) throw InvalidInput("'" + id + "' is a link of another tool");
+  if ((*found)->of_camera) throw InvalidInput("'" + id + "' is what a camera sees: attach the mesh of what the tool holds");
   return *found;
 }
 
@@ -129,7 +130,7 @@ Eigen::Isometry3d AttachService::lookup(const std::string& frame, sweep_guard_co
 
 // What is part of the tool need not be there as a workpiece.
 void AttachService::require(const Parameters& next) const {
-  std::set<std::string> ids = next.mesh_ids;
+  std::set<std::string> ids = requiredIds(next);
   for (const std::string& id : next.attached) ids.erase(id);
   dependencies_.monitor.require(ids);
 }

@@ -239,6 +239,19 @@ ToolModel loadToolModel(const std::string& urdf, const ToolModelOptions& options
   return model;
 }
 
+std::map<std::string, Pieces> loadLinks(const std::string& urdf, const ToolModelOptions& options) {
+  const RobotDescription robot(urdf, options.geometry);
+  std::map<std::string, Pieces> links;
+  for (const urdf::Link* link : RobotDescription::subtree(robot.root())) {
+    if (robot.hasNoShape(*link)) continue;
+    ToolModel model;
+    model.frame = link->name;
+    withLinkInErrors(*link, [&] { addPieces(robot, *link, Eigen::Isometry3d::Identity(), options, model); });
+    links.emplace(link->name, std::move(model.pieces));
+  }
+  return links;
+}
+
 std::vector<ConvexPiece> piecesByBody(const RobotModel& model) {
   std::vector<Eigen::Isometry3d> X_TB;
   bodyPoses(model.robot.tree, model.robot.bodies, {model.X_TR, model.positions}, X_TB);

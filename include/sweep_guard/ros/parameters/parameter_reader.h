@@ -3,6 +3,7 @@
 #include <ros/node_handle.h>
 
 #include <Eigen/Core>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -109,6 +110,10 @@ class ParameterReader {
   /// texts in the order of `names`.
   std::vector<std::vector<std::string>> groups(const std::string& key, const std::vector<std::string>& names,
                                                const std::string& effect = "");
+  /// Reads a list of groups; [] if not set.
+  /// @param take  reads one of them and returns it as text; throws sweep_guard_core::InvalidInput in words that follow `must be`
+  void groups(const std::string& key, const std::string& wanted, const std::string& effect,
+              const std::function<std::string(XmlRpc::XmlRpcValue&)>& take);
   /// Searches a text in the private namespace, then in those above it, or under an absolute name; "" if not set.
   /// The error names only the key.
   std::string searchText(const std::string& name);

@@ -1,0 +1,50 @@
+#include "ros/camera/self_volumes.h"
+
+#include <utility>
+
+#include "sweep_guard/geometry/motion.h"
+
+namespace sweep_guard_ros {
+
+using sweep_guard_core::Motion;
+
+const std::vector<sweep_guard_core::SweptVolume>& SelfVolumes::at(sweep_guard_core::Time stamp, double padding) {
+  volumes_W_.clear();
+  unplaced_.clear();
+  const auto parameters = parameters_.get();
+  addTool(*parameters, stamp, padding);
+  if (parameters->robot_links) addLinks(*parameters, stamp, padding);
+  return volumes_W_;
+}
+
+void SelfVolumes::addTool(const Parameters& parameters, sweep_guard_core::Time stamp, double padding) {
+  const std::vector<sweep_guard_core::Tool>& bodies = *parameters.bodies;
+  const auto around = poses_.around(stamp);
+  if (!around || around->first.size() != bodies.size() || around->second.size() != bodies.size()) return;
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    const auto& [X_WB, deviation] = around->second[i];
+    add(bodies[i].pieces(), Motion{around->first[i].X_WB, X_WB, deviation}, parameters, padding);
+  }
+}
+
+void SelfVolumes::addLinks(const Parameters& parameters, sweep_guard_core::Time stamp, double padding) {
+  for (const auto& [link, pieces] : *parameters.robot_links) {
+    if (const auto X_WL = frames_.find(parameters.fixed_frame, link, stamp)) {
+      add(pieces, Motion{*X_WL, *X_WL}, parameters, padding);
+    } else {
+      unplaced_.push_back(link);
+    }
+  }
+}
+
+void SelfVolumes::add(const std::vector<sweep_guard_core::ConvexPiece>& pieces, const Motion& motion_W,
+                      const Parameters& parameters, double padding) {
+  const sweep_guard_core::SweepOptions& options = parameters.guard.sweep;
+  parts_W_ = split(motion_W, options.max_rotation, std::move(parts_W_));
+  for (const Motion& part_W : parts_W_) {
+    for (const sweep_guard_core::ConvexPiece& piece : pieces)
+      volumes_W_.push_back(sweptVolume(piece.shape_T, part_W, options.volume, padding));
+  }
+}
+
+}  // namespace sweep_guard_ros

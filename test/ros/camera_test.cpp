@@ -1,0 +1,178 @@
+// A guard whose only workpiece is what a depth camera above it sees: a table at z = 0, and what is put on it.
+#include <gtest/gtest.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <string>
+
+#include "guard_probe.h"
+#include "refusal.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard::Warning;
+using sweep_guard_core::has;
+
+constexpr std::uint32_t kWidth = 64;
+constexpr std::uint32_t kHeight = 48;
+constexpr double kFocal = 60.0;  // [pixels]
+const Eigen::Vector3d kHover(0.0, 0.0, 0.3);
+
+// What stands on the table: height [m] at a place of the table [m].
+using Scene = std::function<double(double x, double y)>;
+
+double table(double /*x*/, double /*y*/) { return 0.0; }
+
+// A hand of 0.2 m that covers the middle, as high as this [m].
+Scene handUpTo(double height) {
+  return [height](double x, double y) { return std::abs(x) < 0.1 && std::abs(y) < 0.1 ? height : 0.0; };
+}
+
+sensor_msgs::Image imageOf(const Scene& scene, ros::Time stamp) {
+  sensor_msgs::Image image;
+  image.header.stamp = stamp;
+  image.header.frame_id = "front_optical";
+  image.encoding = "32FC1";
+  image.width = kWidth;
+  image.height = kHeight;
+  image.step = 4 * kWidth;
+  image.data.resize(size_t{image.step} * kHeight);
+  for (std::uint32_t v = 0; v < kHeight; ++v) {
+    for (std::uint32_t u = 0; u < kWidth; ++u) {
+      const double x = (u - 31.5) / kFocal;  // on the ray, at depth 1
+      const double y = (v - 23.5) / kFocal;
+      double depth = 1.0;
+      for (int i = 0; i < 20; ++i) depth = 1.0 - scene(x * depth, -y * depth);
+      const auto value = static_cast<float>(depth);
+      std::memcpy(&image.data[image.step * v + 4 * u], &value, 4);
+    }
+  }
+  return image;
+}
+
+class CameraTest : public ::testing::Test {
+ protected:
+  CameraTest() {
+    info_.header.frame_id = "front_optical";
+    info_.width = kWidth;
+    info_.height = kHeight;
+    info_.P = {kFocal, 0.0, 31.5, 0.0, 0.0, kFocal, 23.5, 0.0, 0.0, 0.0, 1.0, 0.0};
+    info_publisher_ = node_.advertise<sensor_msgs::CameraInfo>("/front/depth/camera_info", 1, /*latch=*/true);
+    images_ = node_.advertise<sensor_msgs::Image>("/front/depth/image_rect", 16);
+    info_publisher_.publish(info_);
+  }
+
+  // One step of 10 ms: what the camera sees, and where the tool is.
+  void step(const sensor_msgs::Image& image, const Eigen::Vector3d& tip) {
+    probe().tick(0.01);
+    images_.publish(image);
+    probe().publish(poseAt(tip, probe().time()));
+    ros::WallDuration(0.005).sleep();
+  }
+
+  Warning stepUntil(const Scene& scene, const Eigen::Vector3d& tip, const std::function<bool(const Warning&)>& fits) {
+    return stepUntil([&] { return imageOf(scene, probe().time()); }, tip, fits);
+  }
+
+  Warning stepUntil(const std::function<sensor_msgs::Image()>& image, const Eigen::Vector3d& tip,
+                    const std::function<bool(const Warning&)>& fits) {
+    for (int i = 0; i < 1000; ++i) {
+      step(image(), tip);
+      const auto warnings = probe().warnings();
+      if (!warnings.empty() && fits(warnings.back())) return warnings.back();
+    }
+    ADD_FAILURE() << "no such warning; the last: " << probe().warnings().back().text;
+    return {};
+  }
+
+  static GuardProbe& probe() {
+    static GuardProbe probe(/*drives_clock=*/true);
+    return probe;
+  }
+  static bool isClear(const Warning& warning) { return warning.level == Warning::CLEAR; }
+  static bool isContact(const Warning& warning) { return warning.level == Warning::CONTACT; }
+
+  ros::NodeHandle node_;
+  sensor_msgs::CameraInfo info_;
+  ros::Publisher info_publisher_;
+  ros::Publisher images_;
+};
+
+TEST_F(CameraTest, NothingIsClearBeforeTheFirstImage) {
+  Warning last;
+  for (int i = 0; i < 20; ++i) {
+    probe().tick(0.01);
+    probe().publish(poseAt(kHover, probe().time()));
+    last = probe().awaitWarning([](const Warning&) { return true; });
+  }
+  EXPECT_EQ(last.level, Warning::UNKNOWN);
+  EXPECT_NE(last.reasons & Warning::NO_MESH, 0U) << last.text;
+  EXPECT_TRUE(has(last.text, "front")) << last.text;
+}
+
+TEST_F(CameraTest, WhatTheCameraSeesIsMetAndWhatHasLeftIsNot) {
+  stepUntil(table, kHover, isClear);
+  const Warning contact = stepUntil(handUpTo(0.305), kHover, isContact);
+  EXPECT_EQ(contact.mesh_id, "front");
+  stepUntil(table, kHover, isClear);
+}
+
+TEST_F(CameraTest, TheToolTouchesTheTableItself) {
+  stepUntil(table, kHover, isClear);
+  for (int mm = 300; mm >= 0; mm -= 5) step(imageOf(table, probe().time()), {0.0, 0.0, 0.001 * mm});
+  stepUntil(table, {0.0, 0.0, -0.001}, isContact);
+  for (int mm = 0; mm <= 300; mm += 5) step(imageOf(table, probe().time()), {0.0, 0.0, 0.001 * mm});
+  stepUntil(table, kHover, isClear);
+}
+
+// The drill is 0.1 m long, with its tip below, and has a radius of 5 mm: the camera sees its upper end.
+TEST_F(CameraTest, TheToolInThePictureIsNoWorkpiece) {
+  const Scene with_tool = [](double x, double y) { return std::hypot(x, y) < 0.02 ? 0.4 : 0.0; };
+  stepUntil(with_tool, kHover, isClear);
+  for (int i = 0; i < 50; ++i) step(imageOf(with_tool, probe().time()), kHover);
+  EXPECT_TRUE(isClear(probe().warnings().back())) << probe().warnings().back().text;
+  const auto status = probe().awaitStatus("/sweep_guard: camera front", [](const GuardProbe::Status& next) {
+    return std::atof(valueOf(next, "pixels of the robot itself [%]").c_str()) > 0.0;
+  });
+  EXPECT_EQ(valueOf(status, "detector"), "halfspace, whatever `detector` says");
+}
+
+TEST_F(CameraTest, AnImageThatCannotBeReadIsUnknownInWordsUntilTheNext) {
+  const auto refused = [&](const std::string& words, const std::function<void(sensor_msgs::Image&)>& spoil) {
+    stepUntil(table, kHover, isClear);
+    const auto spoilt = [&] {
+      sensor_msgs::Image image = imageOf(table, probe().time());
+      spoil(image);
+      return image;
+    };
+    const Warning warning = stepUntil(
+        spoilt, kHover, [&](const Warning& next) { return next.level == Warning::UNKNOWN && has(next.text, words); });
+    EXPECT_FALSE(warning.clear);
+  };
+  refused("rgb8", [](sensor_msgs::Image& image) { image.encoding = "rgb8"; });
+  refused("step", [](sensor_msgs::Image& image) { image.step = 3; });
+  refused("future", [](sensor_msgs::Image& image) { image.header.stamp += ros::Duration(3600.0); });
+  refused("nowhere", [](sensor_msgs::Image& image) { image.header.frame_id = "nowhere"; });
+  refused("camera_info", [](sensor_msgs::Image& image) { image.height /= 2; });
+  stepUntil(table, kHover, isClear);
+}
+
+// Otherwise a camera that is unplugged would leave the guard with what it has seen last.
+TEST_F(CameraTest, ACameraThatFallsSilentIsUnknown) {
+  stepUntil(table, kHover, isClear);
+  for (int i = 0; i < 80; ++i) {
+    probe().tick(0.01);
+    probe().publish(poseAt(kHover, probe().time()));
+    ros::WallDuration(0.01).sleep();
+  }
+  const Warning warning = probe().awaitWarning([](const Warning& next) { return next.level == Warning::UNKNOWN; });
+  EXPECT_NE(warning.reasons & Warning::MESH_STALE, 0U) << warning.text;
+  stepUntil(table, kHover, isClear);
+}
+
+}  // namespace
+}  // namespace sweep_guard_ros
