@@ -149,6 +149,98 @@ TEST_F(DepthSurfaceTest, WhatWasSeenBeforeIsForgotten) {
   EXPECT_TRUE(trianglesOf(mesh_F).empty());
 }
 
+// Of two images of a wall, with the same pose of the camera unless it is stated.
+class DepthMotionTest : public DepthSurfaceTest {
+ protected:
+  Eigen::Vector3d before(std::uint32_t column, std::uint32_t row) {
+    return Eigen::Map<const Eigen::Vector3f>(&surface_.before_F()[3 * size_t{grid_.place(column, row)}]).cast<double>();
+  }
+  Eigen::Vector3d now(std::uint32_t column, std::uint32_t row) {
+    return Eigen::Map<const Eigen::Vector3f>(&surface_.places_F()[3 * size_t{grid_.place(column, row)}]).cast<double>();
+  }
+  void take(const std::vector<float>& depths, double reach, const std::vector<SweptVolume>& bodies = {}) {
+    surface_.take(depths, X_FC_, reach, bodies);
+  }
+
+  DepthSurface surface_{grid_, kCamera, kExact};
+  Eigen::Isometry3d X_FC_ = Eigen::Isometry3d::Identity();
+};
+
+TEST_F(DepthMotionTest, APixelMovesAlongItsRayAsFarAsItReaches) {
+  take(wall(1.0F), 0.0);
+  const double length = onRay(40, 30, 1.0).norm();  // of a ray up to depth 1
+  std::vector<float> nearer = wall(0.9F);
+  take(nearer, 0.1001 * length);
+  EXPECT_TRUE(before(40, 30).isApprox(onRay(40, 30, 1.0), 1e-6));
+  EXPECT_TRUE(now(40, 30).isApprox(onRay(40, 30, 0.9), 1e-6));
+}
+
+TEST_F(DepthMotionTest, WhatCameFromFartherAwayIsThereAtOnce) {
+  take(wall(1.0F), 0.0);
+  take(wall(0.9F), 0.0999 * onRay(40, 30, 1.0).norm());
+  EXPECT_EQ(before(40, 30), now(40, 30));
+}
+
+TEST_F(DepthMotionTest, WhatWasNotSeenBeforeIsThereAtOnce) {
+  std::vector<float> gap = wall(1.0F);
+  at(gap, 40, 30) = kNone;
+  take(gap, 0.0);
+  take(wall(1.0F), 10.0);
+  EXPECT_EQ(before(40, 30), now(40, 30));
+  EXPECT_TRUE(now(40, 30).isApprox(onRay(40, 30, 1.0), 1e-6));
+}
+
+TEST_F(DepthMotionTest, NothingMovesAlongTheRaysOfACameraThatMoves) {
+  take(wall(1.0F), 0.0);
+  X_FC_.translation().x() = 1e-3;
+  take(wall(0.99F), 10.0);
+  EXPECT_EQ(before(40, 30), now(40, 30));
+}
+
+// The middle of a box of 0.1 m at the center of the picture.
+SweptVolume boxAt(double depth) {
+  SweptVolume box;
+  box.box.X_MB = placedAt(0.0, 0.0, depth);
+  box.box.half_extents = Eigen::Vector3d::Constant(0.05);
+  return box;
+}
+
+TEST_F(DepthMotionTest, WhatTheRobotHidesStaysWhereItWasSeen) {
+  take(wall(1.0F), 0.0);
+  std::vector<float> robot = wall(1.0F);
+  at(robot, 26, 18) = 0.5F;
+  take(robot, 0.0, {boxAt(0.5)});
+  EXPECT_EQ(surface_.self(), 1U);
+  EXPECT_EQ(surface_.seen(), size_t{kWidth} * kHeight);
+  EXPECT_TRUE(now(26, 18).isApprox(onRay(26, 18, 1.0), 1e-6));
+  TriangleMesh mesh_F(grid_);
+  mesh_F.deform(surface_.places_F(), surface_.before_F(), surface_.existing());
+  EXPECT_EQ(trianglesOf(mesh_F).size(), 2U * (kWidth - 1) * (kHeight - 1));
+}
+
+TEST_F(DepthMotionTest, WhatTheRobotHasHiddenSinceTheBeginningIsNoSurface) {
+  std::vector<float> robot = wall(1.0F);
+  at(robot, 26, 18) = 0.5F;
+  take(robot, 0.0, {boxAt(0.5)});
+  EXPECT_EQ(surface_.seen(), size_t{kWidth} * kHeight - 1);
+}
+
+TEST_F(DepthMotionTest, ACameraThatMovesForgetsWhatTheRobotHides) {
+  take(wall(1.0F), 0.0);
+  X_FC_.translation().x() = 1e-3;
+  std::vector<float> robot = wall(1.0F);
+  at(robot, 26, 18) = 0.5F;
+  take(robot, 0.0, {boxAt(0.5)});
+  EXPECT_EQ(surface_.seen(), size_t{kWidth} * kHeight - 1);
+}
+
+TEST_F(DepthMotionTest, WhatStandsBesideTheRobotIsASurface) {
+  take(wall(1.0F), 0.0);
+  take(wall(0.5F), 0.0, {boxAt(0.6)});
+  EXPECT_EQ(surface_.self(), 0U);
+  EXPECT_TRUE(now(26, 18).isApprox(onRay(26, 18, 0.5), 1e-6));
+}
+
 TEST_F(DepthSurfaceTest, AnImageAllocatesNothing) {
   DepthSurface surface(grid_, kCamera, kExact);
   TriangleMesh mesh_F(grid_);

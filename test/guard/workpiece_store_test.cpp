@@ -317,5 +317,42 @@ TEST(WorkpieceStoreTest, RemembersTheNewestSixtyFourRemovals) {
   }
 }
 
+std::shared_ptr<const Workpiece> imageAt(int seconds) {
+  Workpiece image = triangleAt(seconds);
+  image.id = "camera";
+  image.of_camera = true;
+  return std::make_shared<const Workpiece>(std::move(image));
+}
+
+TEST(WorkpieceStoreTest, ShowsTheNewestImageOfACamera) {
+  WorkpieceStore store;
+  for (const int seconds : {1, 2}) store.show(imageAt(seconds), atSecond(9));
+  EXPECT_EQ(store.snapshot().at(0)->stamp, atSecond(2));
+  EXPECT_THROW(store.show(imageAt(1), atSecond(9)), InvalidInput);
+  store.show(imageAt(1), atSecond(1.5));  // time went back
+  EXPECT_EQ(store.snapshot().at(0)->stamp, atSecond(1));
+}
+
+// A mesh or a keep-alive by the name of a camera would hide what it no longer sees.
+TEST(WorkpieceStoreTest, NothingButItsImagesChangesWhatACameraSees) {
+  WorkpieceStore store;
+  store.show(imageAt(1), atSecond(9));
+  Workpiece mesh = triangleAt(2);
+  mesh.id = "camera";
+  EXPECT_THROW(store.set(mesh, atSecond(9)), InvalidInput);
+  EXPECT_THROW(store.deform({mesh.id, 7, atSecond(2), {}, kFrame, kRaised}, atSecond(9)), InvalidInput);
+  EXPECT_EQ(store.deform({mesh.id, 7, atSecond(2), {}, kFrame, {}}, atSecond(9)), UpdateOutcome::kIgnored);
+  EXPECT_THROW(store.remove("camera", atSecond(2)), InvalidInput);
+  EXPECT_EQ(store.snapshot().at(0)->stamp, atSecond(1));
+}
+
+TEST(WorkpieceStoreTest, ACameraTakesTheNameOfNoMesh) {
+  WorkpieceStore store;
+  Workpiece mesh = triangleAt(1);
+  mesh.id = "camera";
+  store.set(mesh, atSecond(9));
+  EXPECT_THROW(store.show(imageAt(2), atSecond(9)), InvalidInput);
+}
+
 }  // namespace
 }  // namespace sweep_guard_core

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <cmath>
 #include <cstring>
@@ -64,6 +65,18 @@ class CameraTest : public ::testing::Test {
     info_publisher_ = node_.advertise<sensor_msgs::CameraInfo>("/front/depth/camera_info", 1, /*latch=*/true);
     images_ = node_.advertise<sensor_msgs::Image>("/front/depth/image_rect", 16);
     info_publisher_.publish(info_);
+    static_transforms_.publish(mount());
+  }
+
+  // One meter above the origin, it looks down.
+  static tf2_msgs::TFMessage mount() {
+    tf2_msgs::TFMessage mount;
+    mount.transforms.resize(1);
+    mount.transforms[0].header.frame_id = "world";
+    mount.transforms[0].child_frame_id = "front_optical";
+    mount.transforms[0].transform.translation.z = 1.0;
+    mount.transforms[0].transform.rotation.x = 1.0;
+    return mount;
   }
 
   // One step of 10 ms: what the camera sees, and where the tool is.
@@ -100,6 +113,7 @@ class CameraTest : public ::testing::Test {
   sensor_msgs::CameraInfo info_;
   ros::Publisher info_publisher_;
   ros::Publisher images_;
+  ros::Publisher static_transforms_ = node_.advertise<tf2_msgs::TFMessage>("/tf_static", 10, /*latch=*/true);
 };
 
 TEST_F(CameraTest, NothingIsClearBeforeTheFirstImage) {
