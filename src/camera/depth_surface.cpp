@@ -33,27 +33,30 @@ void checkOptions(const DepthOptions& options) {
 
 DepthSurface::DepthSurface(const Grid& grid, const Pinhole& camera, const DepthOptions& options)
     : grid_(grid),
+      camera_(camera),
       options_(options),
       margin_{static_cast<float>(options.margin[0]), static_cast<float>(options.margin[1])},
       slope_(static_cast<float>(kSteepest * std::hypot(1.0 / camera.fx, 1.0 / camera.fy))),
-      inverse_(grid.places()),
-      depths_(grid.places(), kNothing),
-      steps_(grid.places(), kNothing),
-      remembered_(grid.places(), kNothing),
-      depths_before_(grid.places(), kNothing),
+      stride_(size_t{grid.tileColumns()} * kColumns + 1),
+      inverse_((size_t{grid.tileRows()} * kRows + 1) * stride_, 0.0F),
+      depths_(inverse_.size(), kNothing),
+      steps_(depths_),
+      nearer_(depths_),
+      pairs_(stride_ * kRows),
+      remembered_(depths_),
+      nearer_before_(depths_),
       places_before_F_(3 * grid.places(), 0.0F),
-      places_F_(3 * grid.places(), 0.0F),
-      before_F_(3 * grid.places(), 0.0F),
+      places_F_(places_before_F_),
+      before_F_(places_before_F_),
       existing_(grid.tiles(), 0) {
   checkCamera(camera);
   checkOptions(options);
   for (size_t u = 0; u < grid.tileColumns() * kColumns; ++u)
     x_.push_back((static_cast<double>(u) - camera.cx) / camera.fx);
-  for (size_t v = 0; v < size_t{grid.tileRows()} * Grid::kTileRows; ++v)
-    y_.push_back((static_cast<double>(v) - camera.cy) / camera.fy);
-  for (std::uint32_t v = 0; v < y_.size(); ++v) {
-    for (std::uint32_t u = 0; u < x_.size(); ++u)
-      inverse_[grid.place(u, v)] = static_cast<float>(1.0 / std::hypot(x_[u], y_[v], 1.0));
+  for (size_t v = 0; v < grid.tileRows() * kRows; ++v) y_.push_back((static_cast<double>(v) - camera.cy) / camera.fy);
+  for (size_t v = 0; v < grid.height(); ++v) {
+    for (size_t u = 0; u < grid.width(); ++u)
+      inverse_[v * stride_ + u] = static_cast<float>(1.0 / std::hypot(x_[u], y_[v], 1.0));
   }
 }
 
@@ -62,9 +65,9 @@ void DepthSurface::take(const std::vector<float>& depths, const Eigen::Isometry3
   assert(depths.size() == size_t{grid_.width()} * grid_.height());
   if (X_FC.matrix() != X_FC_.matrix()) forget();
   X_FC_ = X_FC;
-  findVertices(depths, X_FC);
-  hideSelf(bodies_F, X_FC);
-  fillUnseen(X_FC.translation());
+  for (size_t row = 0; row < grid_.height(); ++row) readRow(depths, row);
+  placeVertices(X_FC, places_F_);
+  hideSelf(bodies_F);
   findTriangles();
   findMotion(reach);
 }
@@ -72,144 +75,176 @@ void DepthSurface::take(const std::vector<float>& depths, const Eigen::Isometry3
 // Where the camera goes, its pixels show something else.
 void DepthSurface::forget() {
   std::fill(remembered_.begin(), remembered_.end(), kNothing);
-  std::fill(depths_before_.begin(), depths_before_.end(), kNothing);
+  std::fill(nearer_before_.begin(), nearer_before_.end(), kNothing);
 }
 
-void DepthSurface::findVertices(const std::vector<float>& depths, const Eigen::Isometry3d& X_FC) {
-  for (std::uint32_t row = 0; row < y_.size(); ++row) {
-    for (std::uint32_t column = 0; column < x_.size(); column += kColumns) {
-      const std::uint32_t place = grid_.place(column, row);
-      readRow(depths, column, row, place);
-      placeRow(X_FC, column, row, place);
-    }
+// Members are copied, here and in findPairs(): what is stored could change them, and the loop would not be vectorized.
+void DepthSurface::readRow(const std::vector<float>& depths, size_t row) {
+  const auto nearest = static_cast<float>(options_.nearest);
+  const auto farthest = static_cast<float>(options_.farthest);
+  const std::array<float, 2> margin = margin_;
+  const float slope = slope_;
+  const size_t from = row * grid_.width();
+  const size_t to = row * stride_;
+  for (size_t i = 0; i < grid_.width(); ++i) {
+    const bool is_seen = depths[from + i] >= nearest && depths[from + i] <= farthest;
+    const float depth = is_seen ? depths[from + i] : kNothing;
+    const float error = margin[0] + margin[1] * depth * depth;
+    depths_[to + i] = depth;
+    steps_[to + i] = slope * depth + 2.0F * error;
+    nearer_[to + i] = std::max(depth - error * inverse_[to + i], 0.0F);
   }
 }
 
-void DepthSurface::hideSelf(const std::vector<SweptVolume>& bodies_F, const Eigen::Isometry3d& X_FC) {
+// Pixels that show the robot become what they showed before.
+void DepthSurface::hideSelf(const std::vector<SweptVolume>& bodies_F) {
   self_.find(places_F_, bodies_F);
-  for (std::uint32_t row = 0; self_.count() > 0 && row < y_.size(); ++row) {
-    for (std::uint32_t column = 0; column < x_.size(); column += kColumns) {
-      const std::uint32_t place = grid_.place(column, row);
-      const auto hidden = self_.tiles()[place / Grid::kTilePixels] >> place % Grid::kTilePixels & 0xFFU;
-      if (hidden == 0) continue;
-      for (size_t i = 0; i < kColumns; ++i) {
-        if ((hidden >> i & 1U) != 0) setDepth(place + i, remembered_[place + i]);
-      }
-      placeRow(X_FC, column, row, place);
-    }
+  for (size_t tile = 0; tile < self_.tiles().size(); ++tile) {
+    if (self_.tiles()[tile] != 0) hideSelf(tile);
   }
-  std::transform(depths_.begin(), depths_.end(), remembered_.begin(), remembered_.begin(),
-                 [](float depth, float before) { return std::isnan(depth) ? before : depth; });
+  size_t seen = 0;
+  for (size_t pixel = 0; pixel < depths_.size(); ++pixel) {
+    const bool is_seen = !std::isnan(depths_[pixel]);
+    remembered_[pixel] = is_seen ? depths_[pixel] : remembered_[pixel];
+    seen += is_seen ? 1 : 0;
+  }
+  seen_ = seen;
 }
 
+void DepthSurface::hideSelf(size_t tile) {
+  const size_t row = tile / grid_.tileColumns() * kRows;
+  const size_t column = tile % grid_.tileColumns() * kColumns;
+  for (std::uint32_t left = self_.tiles()[tile]; left != 0; left &= left - 1) {
+    const auto i = static_cast<size_t>(__builtin_ctz(left));
+    const size_t pixel = (row + i / kColumns) * stride_ + column + i % kColumns;
+    setDepth(pixel, remembered_[pixel]);
+  }
+  for (size_t i = 0; i < kRows; ++i) {
+    const size_t place = tile * Grid::kTilePixels + i * kColumns;
+    placeRow(X_FC_, column, row + i, &places_F_[3 * (place == 0 ? 0 : place - 1)], &places_F_[3 * place]);
+  }
+}
+
+void DepthSurface::setDepth(size_t pixel, float depth) {
+  const float error = margin_[0] + margin_[1] * depth * depth;
+  depths_[pixel] = depth;
+  steps_[pixel] = slope_ * depth + 2.0F * error;
+  nearer_[pixel] = std::max(depth - error * inverse_[pixel], 0.0F);
+}
+
+// As a rule all go on: what does not is exchanged.
 void DepthSurface::findMotion(double reach) {
   const auto most = static_cast<float>(reach);
-  for (size_t place = 0; place < depths_.size(); ++place) {
-    const bool goes_on = std::abs(depths_[place] - depths_before_[place]) <= most * inverse_[place];
-    std::copy_n(&(goes_on ? places_before_F_ : places_F_)[3 * place], 3, &before_F_[3 * place]);
+  before_F_.swap(places_before_F_);
+  size_t place = 0;
+  for (size_t v = 0; v < y_.size(); v += kRows) {
+    for (size_t u = 0; u < x_.size(); u += kColumns) {
+      for (size_t row = v; row < v + kRows; ++row, place += kColumns) endMotions(most, row * stride_ + u, place);
+    }
   }
-  depths_before_ = depths_;
+  nearer_before_ = nearer_;
   places_before_F_ = places_F_;
 }
 
-void DepthSurface::readRow(const std::vector<float>& depths, std::uint32_t column, std::uint32_t row, size_t place) {
-  const auto nearest = static_cast<float>(options_.nearest);
-  const auto farthest = static_cast<float>(options_.farthest);
-  Row read;
-  read.fill(kNothing);
-  const std::uint32_t count = row < grid_.height() ? std::min<std::uint32_t>(kColumns, grid_.width() - column) : 0;
-  std::copy_n(depths.data() + (count == 0 ? 0 : size_t{row} * grid_.width() + column), count, read.data());
-  for (size_t i = 0; i < kColumns; ++i)
-    setDepth(place + i, read[i] >= nearest && read[i] <= farthest ? read[i] : kNothing);
+// Of the pixels in a row of a tile.
+void DepthSurface::endMotions(float reach, size_t pixel, size_t place) {
+  std::array<bool, kColumns> goes_on;
+  bool all = true;
+  for (size_t i = 0; i < kColumns; ++i) {
+    goes_on[i] = std::abs(nearer_[pixel + i] - nearer_before_[pixel + i]) <= reach * inverse_[pixel + i];
+    all = all && goes_on[i];
+  }
+  for (size_t i = 0; i < kColumns && !all; ++i) {
+    if (!goes_on[i]) std::copy_n(&places_F_[3 * (place + i)], 3, &before_F_[3 * (place + i)]);
+  }
 }
 
-void DepthSurface::setDepth(size_t place, float depth) {
-  depths_[place] = depth;
-  steps_[place] = slope_ * depth + 2.0F * (margin_[0] + margin_[1] * depth * depth);
+DepthSurface::Expected DepthSurface::compare(const std::vector<float>& depths,
+                                             const std::vector<Eigen::Vector3d>& points_F) const {
+  const Eigen::Isometry3d X_CF = X_FC_.inverse();
+  Expected expected;
+  for (const Eigen::Vector3d& p_F : points_F) {
+    const Eigen::Vector3d p_C = X_CF * p_F;
+    if (!(p_C.z() > options_.nearest && p_C.z() < options_.farthest)) continue;
+    const double u = std::round(camera_.fx * p_C.x() / p_C.z() + camera_.cx);
+    const double v = std::round(camera_.fy * p_C.y() / p_C.z() + camera_.cy);
+    if (!(u >= 0.0 && u < grid_.width() && v >= 0.0 && v < grid_.height())) continue;
+    const auto column = static_cast<std::uint32_t>(u);
+    const auto row = static_cast<std::uint32_t>(v);
+    const std::uint32_t place = grid_.place(column, row);
+    const bool found = (self_.tiles()[place / Grid::kTilePixels] >> place % Grid::kTilePixels & 1U) != 0;
+    const float depth = depths[size_t{row} * grid_.width() + column];
+    if (!found && !(depth > p_C.z())) continue;
+    ++expected.points;
+    expected.found += found ? 1 : 0;
+  }
+  return expected;
 }
 
-void DepthSurface::placeRow(const Eigen::Isometry3d& X_FC, std::uint32_t column, std::uint32_t row, size_t place) {
+void DepthSurface::placeVertices(const Eigen::Isometry3d& X_FC, std::vector<float>& places_F) const {
+  const Eigen::Vector3f p_FC = X_FC.translation().cast<float>();
+  const float* before_F = p_FC.data();
+  size_t place = 0;
+  size_t first = 0;  // that is seen
+  for (size_t v = 0; v < y_.size(); v += kRows) {
+    for (size_t u = 0; u < x_.size(); u += kColumns) {
+      for (size_t row = v; row < v + kRows; ++row, place += kColumns) {
+        const size_t unseen = placeRow(X_FC, u, row, before_F, &places_F[3 * place]);
+        if (first == place) first += unseen;
+        before_F = &places_F[3 * (place + kColumns - 1)];
+      }
+    }
+  }
+  if (first == place) return;
+  for (size_t i = 0; i < first; ++i) std::copy_n(&places_F[3 * first], 3, &places_F[3 * i]);
+}
+
+size_t DepthSurface::placeRow(const Eigen::Isometry3d& X_FC, size_t column, size_t row, const float* before_F,
+                              float* places_F) const {
   const Eigen::Vector3d across = X_FC.linear().col(0);
   const Eigen::Vector3d ahead = y_[row] * X_FC.linear().col(1) + X_FC.linear().col(2);
+  Eigen::Vector3f p_F = Eigen::Map<const Eigen::Vector3f>(before_F);
+  size_t first = kColumns;
   for (size_t i = 0; i < kColumns; ++i) {
-    const float depth = depths_[place + i];
-    const float margin = margin_[0] + margin_[1] * depth * depth;
-    const double nearer = std::max(0.0F, depth - margin * inverse_[place + i]);
-    for (int axis = 0; axis < 3; ++axis) {
-      places_F_[3 * (place + i) + static_cast<size_t>(axis)] =
-          static_cast<float>((across[axis] * x_[column + i] + ahead[axis]) * nearer + X_FC.translation()[axis]);
+    const float nearer = nearer_[row * stride_ + column + i];
+    if (!std::isnan(nearer)) {
+      p_F = ((across * x_[column + i] + ahead) * double{nearer} + X_FC.translation()).cast<float>();
+      first = std::min(first, i);
     }
+    Eigen::Map<Eigen::Vector3f>(places_F + 3 * i) = p_F;
   }
-}
-
-void DepthSurface::fillUnseen(const Eigen::Vector3d& p_FC) {
-  const auto is_seen = [](float depth) { return !std::isnan(depth); };
-  const auto first = std::find_if(depths_.begin(), depths_.end(), is_seen);
-  Eigen::Vector3f p_F = p_FC.cast<float>();
-  if (first != depths_.end()) std::copy_n(&places_F_[3 * static_cast<size_t>(first - depths_.begin())], 3, p_F.data());
-  seen_ = 0;
-  for (size_t place = 0; place < depths_.size(); ++place) {
-    float* const p = &places_F_[3 * place];
-    if (is_seen(depths_[place])) {
-      std::copy_n(p, 3, p_F.data());
-      ++seen_;
-    } else {
-      std::copy_n(p_F.data(), 3, p);
-    }
-  }
+  return first;
 }
 
 void DepthSurface::findTriangles() {
   size_t tile = 0;
-  for (std::uint32_t row = 0; row < grid_.tileRows(); ++row) {
-    for (std::uint32_t column = 0; column < grid_.tileColumns(); ++column)
-      existing_[tile++] = tileAt(column, row).triangles();
+  for (size_t v = 0; v < y_.size(); v += kRows) {
+    for (size_t row = 0; row < kRows; ++row) findPairs((v + row) * stride_, &pairs_[row * stride_]);
+    for (size_t u = 0; u < x_.size(); u += kColumns) existing_[tile++] = trianglesAt(u);
   }
-}
-
-DepthSurface::Tile DepthSurface::tileAt(std::uint32_t tile_column, std::uint32_t tile_row) const {
-  Tile tile;
-  const std::uint32_t u = tile_column * Grid::kTileColumns;
-  const bool is_last = u + kColumns >= x_.size();
-  for (std::uint32_t row = 0; row <= kRows; ++row) {
-    const std::uint32_t v = tile_row * Grid::kTileRows + row;
-    auto& depth = tile.depth[row];
-    auto& step = tile.step[row];
-    depth.fill(kNothing);
-    step.fill(kNothing);
-    if (v >= y_.size()) continue;
-    std::copy_n(&depths_[grid_.place(u, v)], kColumns, depth.data());
-    std::copy_n(&steps_[grid_.place(u, v)], kColumns, step.data());
-    if (is_last) continue;
-    depth[kColumns] = depths_[grid_.place(u + kColumns, v)];
-    step[kColumns] = steps_[grid_.place(u + kColumns, v)];
-  }
-  return tile;
 }
 
 // What is compared with NaN is no neighbor.
-std::uint8_t DepthSurface::Tile::joined(size_t row, size_t column, size_t other_row, size_t other_column) const {
-  return std::abs(depth[row][column] - depth[other_row][other_column]) <=
-         std::min(step[row][column], step[other_row][other_column]);
+void DepthSurface::findPairs(size_t first, std::uint8_t* pairs) const {
+  const auto joined = [depth = &depths_[first], step = &steps_[first]](size_t a, size_t b) -> unsigned {
+    return std::abs(depth[a] - depth[b]) <= std::min(step[a], step[b]);
+  };
+  const size_t stride = stride_;
+  const size_t count = x_.size();
+  for (size_t i = 0; i < count; ++i) {
+    const size_t below = i + stride;
+    const unsigned diagonal = joined(i + 1, below);
+    const unsigned upper = diagonal & joined(i, i + 1) & joined(i, below);
+    const unsigned lower = diagonal & joined(below, below + 1) & joined(i + 1, below + 1);
+    pairs[i] = static_cast<std::uint8_t>(upper | lower << 1U);
+  }
 }
 
-std::uint64_t DepthSurface::Tile::triangles() const {
-  std::array<std::array<std::uint8_t, kColumns>, kRows + 1> across;
-  std::array<std::array<std::uint8_t, kColumns + 1>, kRows> down;
-  for (size_t row = 0; row <= kRows; ++row) {
-    for (size_t column = 0; column < kColumns; ++column) across[row][column] = joined(row, column, row, column + 1);
-  }
-  for (size_t row = 0; row < kRows; ++row) {
-    for (size_t column = 0; column <= kColumns; ++column) down[row][column] = joined(row, column, row + 1, column);
-  }
+std::uint64_t DepthSurface::trianglesAt(size_t column) const {
   std::uint64_t bits = 0;
   for (size_t row = 0; row < kRows; ++row) {
-    for (size_t column = 0; column < kColumns; ++column) {
-      const std::uint64_t diagonal = joined(row, column + 1, row + 1, column);
-      const std::uint64_t upper = diagonal & across[row][column] & down[row][column];
-      const std::uint64_t lower = diagonal & across[row + 1][column] & down[row][column + 1];
-      bits |= (upper | lower << 1U) << (2 * (row * kColumns + column));
-    }
+    for (size_t i = 0; i < kColumns; ++i)
+      bits |= std::uint64_t{pairs_[row * stride_ + column + i]} << (2 * (row * kColumns + i));
   }
   return bits;
 }

@@ -32,7 +32,7 @@ struct DepthOptions {
 /// While the camera rests, a pixel that shows the robot itself is a vertex where it was last before the robot hid it, and a pixel
 /// whose depth changes by little has moved along its ray. A larger change says that something came or went.
 ///
-/// Takes a pass over the pixels each for positions, triangles and motion, and allocates nothing once it is made.
+/// Takes a pass over the pixels each for depths, positions, triangles and motion, and allocates nothing once it is made.
 class DepthSurface {
  public:
   /// @throws InvalidInput if camera or options are not as above, or not finite
@@ -56,42 +56,50 @@ class DepthSurface {
   size_t seen() const { return seen_; }          ///< pixels of the newest image that are vertices
   size_t self() const { return self_.count(); }  ///< pixels of the newest image that show the robot
 
+  /// Points of the robot that the newest image has to show, and how many it shows where they are expected.
+  struct Expected {
+    size_t points = 0;
+    size_t found = 0;
+  };
+  /// Counts the points in the picture that nothing stands before. One is found if its pixel shows the robot.
+  /// @param depths    of the newest image
+  /// @param points_F  within bodies of the robot that were there [m]
+  Expected compare(const std::vector<float>& depths, const std::vector<Eigen::Vector3d>& points_F) const;
+
  private:
   static constexpr size_t kColumns = Grid::kTileColumns;
   static constexpr size_t kRows = Grid::kTileRows;
-  using Row = std::array<float, kColumns>;  // of a tile
 
-  // With the pixels to its right and below it.
-  struct Tile {
-    std::array<std::array<float, kColumns + 1>, kRows + 1> depth;
-    std::array<std::array<float, kColumns + 1>, kRows + 1> step;
-
-    std::uint8_t joined(size_t row, size_t column, size_t other_row, size_t other_column) const;
-    std::uint64_t triangles() const;
-  };
-
-  void findVertices(const std::vector<float>& depths, const Eigen::Isometry3d& X_FC);
-  void readRow(const std::vector<float>& depths, std::uint32_t column, std::uint32_t row, size_t place);
-  void setDepth(size_t place, float depth);
-  void placeRow(const Eigen::Isometry3d& X_FC, std::uint32_t column, std::uint32_t row, size_t place);
   void forget();
-  void hideSelf(const std::vector<SweptVolume>& bodies_F, const Eigen::Isometry3d& X_FC);
+  void readRow(const std::vector<float>& depths, size_t row);
+  void setDepth(size_t pixel, float depth);
+  void hideSelf(const std::vector<SweptVolume>& bodies_F);
+  void hideSelf(size_t tile);
   void findMotion(double reach);
-  void fillUnseen(const Eigen::Vector3d& p_FC);
+  void endMotions(float reach, size_t pixel, size_t place);
+  void placeVertices(const Eigen::Isometry3d& X_FC, std::vector<float>& places_F) const;
+  // Those in a row of a tile. Where nothing is seen, that of the place before; returns how many are before any is seen.
+  size_t placeRow(const Eigen::Isometry3d& X_FC, size_t column, size_t row, const float* before_F,
+                  float* places_F) const;
   void findTriangles();
-  Tile tileAt(std::uint32_t tile_column, std::uint32_t tile_row) const;
+  void findPairs(size_t first, std::uint8_t* pairs) const;
+  std::uint64_t trianglesAt(size_t column) const;
 
   const Grid grid_;
+  const Pinhole camera_;
   const DepthOptions options_;
   const std::array<float, 2> margin_;
-  const float slope_;                 // largest difference of depths between neighbors, by depth
-  std::vector<double> x_;             // of a ray at depth 1, by column of the tiles
-  std::vector<double> y_;             // by row
-  std::vector<float> inverse_;        // of the length of a ray up to depth 1; this and the following at their places
-  std::vector<float> depths_;         // NaN: not seen
-  std::vector<float> steps_;          // smallest difference to a neighbor's depth that is a step [m]; NaN: not seen
-  std::vector<float> remembered_;     // depth where a pixel last showed something else than the robot; NaN: never
-  std::vector<float> depths_before_;  // of the image before
+  const float slope_;                // largest difference of depths between neighbors, by depth
+  std::vector<double> x_;            // of a ray at depth 1, by column of the tiles
+  std::vector<double> y_;            // by row
+  const size_t stride_;              // of the rows of the following, which have a column and a row more than the tiles
+  std::vector<float> inverse_;       // of the length of a ray up to depth 1; 0: beyond the image
+  std::vector<float> depths_;        // NaN: not seen
+  std::vector<float> steps_;         // smallest difference to a neighbor's depth that is a step [m]; NaN: not seen
+  std::vector<float> nearer_;        // depth less the margin [m]; NaN: not seen
+  std::vector<std::uint8_t> pairs_;  // of triangles of each pixel in a row of tiles: bits 0 and 1 are set if they exist
+  std::vector<float> remembered_;    // depth where a pixel last showed something else than the robot; NaN: never
+  std::vector<float> nearer_before_;  // of the image before; NaN: not seen, or nothing is known of it
   std::vector<float> places_before_F_;
   std::vector<float> places_F_;
   std::vector<float> before_F_;

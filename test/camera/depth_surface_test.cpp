@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -138,6 +139,39 @@ TEST_F(DepthSurfaceTest, AStepIsLargerThanTwiceTheMargin) {
             2U * (kWidth - 1) * (kHeight - 1));
 }
 
+bool joined(double depth, double other) {
+  const auto step = [](double z) {
+    return 10.0 * std::hypot(1.0 / 60.0, 1.0 / 58.0) * z + 2.0 * (0.005 + 0.003 * z * z);
+  };
+  return std::abs(depth - other) <= std::min(step(depth), step(other));
+}
+
+TEST(DepthSurfaceRuleTest, ATriangleExistsIfItsCornersAreSeenAndNoStepIsBetweenTwoOfThem) {
+  Random random(3);
+  std::array<size_t, 2> count{};
+  for (const auto& [width, height] :
+       {std::pair(2U, 2U), {3U, 9U}, {8U, 4U}, {9U, 5U}, {17U, 3U}, {64U, 31U}, {95U, 66U}}) {
+    const Grid grid(width, height);
+    std::vector<float> depths(size_t{width} * height);
+    for (float& depth : depths)
+      depth = random.chance(0.1) ? kNone : static_cast<float>(random.uniform(1.0, random.chance(0.2) ? 2.0 : 1.1));
+    std::vector<float> at(grid.places(), kNone);
+    for (std::uint32_t i = 0; i < depths.size(); ++i) at[grid.place(i % width, i / width)] = depths[i];
+    DepthSurface surface(grid, kCamera, {0.1, 4.0, {0.005, 0.003}});
+    surface.take(depths, Eigen::Isometry3d::Identity());
+    const std::vector<Triangle> triangles = grid.triangles();
+    for (size_t i = 0; i < triangles.size(); ++i) {
+      const auto& [a, b, c] = triangles[i];
+      const bool expected = a != b && joined(at[a], at[b]) && joined(at[b], at[c]) && joined(at[c], at[a]);
+      EXPECT_EQ((surface.existing()[i / simd::kCluster] >> i % simd::kCluster & 1U) == 1U, expected)
+          << width << ", " << i;
+      ++count.at(expected ? 1 : 0);
+    }
+  }
+  EXPECT_GT(count[0], 1000U);
+  EXPECT_GT(count[1], 1000U);
+}
+
 TEST_F(DepthSurfaceTest, WhatWasSeenBeforeIsForgotten) {
   DepthSurface surface(grid_, kCamera, kExact);
   TriangleMesh mesh_F(grid_);
@@ -239,6 +273,24 @@ TEST_F(DepthMotionTest, WhatStandsBesideTheRobotIsASurface) {
   take(wall(0.5F), 0.0, {boxAt(0.6)});
   EXPECT_EQ(surface_.self(), 0U);
   EXPECT_TRUE(now(26, 18).isApprox(onRay(26, 18, 0.5), 1e-6));
+}
+
+// Of points 1 cm behind the face of the robot, which is a box of 0.1 m.
+TEST_F(DepthMotionTest, ThePointsOfTheRobotAreFoundWhereThePictureShowsIt) {
+  std::vector<Eigen::Vector3d> points;
+  for (const double x : {-0.03, 0.0, 0.03}) points.emplace_back(x, 0.0, 0.51);
+  const std::vector<SweptVolume> robot = {boxAt(0.5)};
+  const auto compared = [&](const std::vector<float>& depths) {
+    take(depths, 0.0, robot);
+    const auto [all, found] = surface_.compare(depths, points);
+    return std::pair(all, found);
+  };
+  EXPECT_EQ(compared(wall(0.5F)), std::pair(size_t{3}, size_t{3}));
+  EXPECT_EQ(compared(wall(1.0F)), std::pair(size_t{3}, size_t{0})) << "the robot is elsewhere";
+  EXPECT_EQ(compared(wall(0.3F)), std::pair(size_t{0}, size_t{0})) << "something stands before it";
+  EXPECT_EQ(compared(wall(kNone)), std::pair(size_t{0}, size_t{0}));
+  points = {{5.0, 0.0, 0.5}, {0.0, 0.0, -0.5}};
+  EXPECT_EQ(compared(wall(1.0F)), std::pair(size_t{0}, size_t{0})) << "beside the picture, and behind the camera";
 }
 
 TEST_F(DepthSurfaceTest, AnImageAllocatesNothing) {

@@ -24,7 +24,10 @@ constexpr size_t kMaxWaiting = 16;             // images, see Worker: each count
 constexpr std::uint32_t kQueued = 100;         // messages; taken from roscpp's queue at once
 constexpr size_t kMaxImageSize = 128U << 20U;  // [bytes]; kMaxPixels take 32 MiB
 constexpr size_t kMaxInfoSize = 1U << 16U;     // [bytes]
-constexpr size_t kRemembered = 64;             // images: snapshots that none of them needed are given back
+constexpr size_t kLeastPoints = 7;             // of the tool in the picture
+constexpr double kMostFound = 0.5;
+constexpr sweep_guard_core::Duration kMisplaced = std::chrono::seconds(5);
+constexpr size_t kRemembered = 64;  // images: snapshots that none of them needed are given back
 
 bool isCompressed(const std::string& topic) {
   const std::string suffix = "/compressedDepth";
@@ -82,10 +85,17 @@ std::optional<CameraInput::Shares> CameraInput::shares() const {
   return shares_;
 }
 
-void CameraInput::keepShares() {
-  const auto share = [&](size_t pixels) { return static_cast<double>(pixels) / static_cast<double>(depths_.size()); };
+void CameraInput::keepShares(SteadyTime received) {
+  const auto share = [](size_t part, size_t all) { return static_cast<double>(part) / static_cast<double>(all); };
+  Shares shares{share(surface_->seen(), depths_.size()), share(surface_->self(), depths_.size()),
+                self_.unplaced().size(), std::nullopt, false};
+  const auto [points, found] = surface_->compare(depths_, self_.toolPoints());
+  if (points >= kLeastPoints) shares.tool_found = share(found, points);
+  if (!shares.tool_found || *shares.tool_found >= kMostFound) misplaced_since_.reset();
+  if (shares.tool_found && *shares.tool_found < kMostFound && !misplaced_since_) misplaced_since_ = received;
+  shares.misplaced = misplaced_since_ && received - *misplaced_since_ >= kMisplaced;
   const sweep_guard_core::Lock lock(shares_mutex_);
-  shares_ = Shares{share(surface_->seen()), share(surface_->self()), self_.unplaced().size()};
+  shares_ = shares;
 }
 
 template <typename Msg>
@@ -98,7 +108,7 @@ void CameraInput::take(const Msg& msg, SteadyTime received) {
     const Eigen::Isometry3d X_WC = locate(msg.header.frame_id, stamp);
     surface_->take(depths_, X_WC, reachSince(stamp), self_.at(stamp, camera_.self_padding));
     newest_ = stamp;
-    keepShares();
+    keepShares(received);
     image = unusedImage();
     image->mesh_M.deform(surface_->places_F(), surface_->before_F(), surface_->existing());
     image->stamp = stamp;

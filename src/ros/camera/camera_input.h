@@ -61,6 +61,9 @@ class CameraInput {
     double seen;            ///< where there is a surface
     double self;            ///< that show the robot
     size_t unplaced_links;  ///< of the robot description, that tf did not know at its stamp: they count as surroundings
+    /// Of the points of the tool in the picture, the share that shows the tool; empty: too few are in it.
+    std::optional<double> tool_found;
+    bool misplaced;  ///< for 5 s, less than half of the tool is where it is expected
   };
   std::optional<Shares> shares() const;  ///< of the newest image; empty: none has come
 
@@ -73,7 +76,7 @@ class CameraInput {
   double reachSince(sweep_guard_core::Time stamp) const;
   Eigen::Isometry3d locate(const std::string& frame, sweep_guard_core::Time stamp);
   std::shared_ptr<sweep_guard_core::Workpiece> unusedImage();
-  void keepShares();
+  void keepShares(sweep_guard_core::SteadyTime received);
   void refuse(const std::string& why, sweep_guard_core::SteadyTime received);
   void drop(sweep_guard_core::SteadyTime received);
 
@@ -98,8 +101,9 @@ class CameraInput {
   std::optional<sweep_guard_core::DepthSurface> surface_;  // of images of this size and camera; empty: none has come
   std::optional<sweep_guard_core::TriangleMesh> empty_;    // of the size
   sweep_guard_core::Pool<sweep_guard_core::Workpiece> images_shown_;
-  std::optional<sweep_guard_core::Time> newest_;  // stamp of what surface_ shows
-  std::uint64_t number_ = 0;                      // of the newest image
+  std::optional<sweep_guard_core::Time> newest_;                 // stamp of what surface_ shows
+  std::optional<sweep_guard_core::SteadyTime> misplaced_since_;  // where most of the tool is not where it is expected
+  std::uint64_t number_ = 0;                                     // of the newest image
 
   Worker worker_;  // before the subscribers, which push
   BoundedSubscriber images_;

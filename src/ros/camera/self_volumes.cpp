@@ -8,8 +8,27 @@ namespace sweep_guard_ros {
 
 using sweep_guard_core::Motion;
 
+namespace {
+
+// Halfway to the surface in fourteen directions.
+void addPointsWithin(const sweep_guard_core::ConvexShape& shape_T, const Eigen::Isometry3d& X_WT,
+                     std::vector<Eigen::Vector3d>& points_W) {
+  const Eigen::Vector3d& mean = shape_T.moments_T().mean;
+  for (int x = -1; x <= 1; ++x) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int z = -1; z <= 1; ++z) {
+        if (const int axes = x * x + y * y + z * z; axes != 1 && axes != 3) continue;
+        points_W.push_back(X_WT * (0.5 * (mean + shape_T.supportPoint(Eigen::Vector3d(x, y, z)))));
+      }
+    }
+  }
+}
+
+}  // namespace
+
 const std::vector<sweep_guard_core::SweptVolume>& SelfVolumes::at(sweep_guard_core::Time stamp, double padding) {
   volumes_W_.clear();
+  points_W_.clear();
   unplaced_.clear();
   const auto parameters = parameters_.get();
   addTool(*parameters, stamp, padding);
@@ -24,6 +43,8 @@ void SelfVolumes::addTool(const Parameters& parameters, sweep_guard_core::Time s
   for (size_t i = 0; i < bodies.size(); ++i) {
     const auto& [X_WB, deviation] = around->second[i];
     add(bodies[i].pieces(), Motion{around->first[i].X_WB, X_WB, deviation}, parameters, padding);
+    for (const sweep_guard_core::ConvexPiece& piece : bodies[i].pieces())
+      addPointsWithin(piece.shape_T, X_WB, points_W_);
   }
 }
 

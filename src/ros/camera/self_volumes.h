@@ -23,6 +23,8 @@ class SelfVolumes {
   /// @param padding  the pieces are grown by this [m], >= 0
   const std::vector<sweep_guard_core::SweptVolume>& at(sweep_guard_core::Time stamp, double padding);
 
+  /// Returns points within the tool at the pose after the stamp, in the fixed frame [m], as at().
+  const std::vector<Eigen::Vector3d>& toolPoints() const { return points_W_; }
   /// Returns the links that the last call of at() has left out, because tf does not know them then.
   const std::vector<std::string>& unplaced() const { return unplaced_; }
 
@@ -37,6 +39,7 @@ class SelfVolumes {
   const sweep_guard_core::RecentPoses& poses_;
   std::vector<sweep_guard_core::Motion> parts_W_;  // of a motion
   std::vector<sweep_guard_core::SweptVolume> volumes_W_;
+  std::vector<Eigen::Vector3d> points_W_;
   std::vector<std::string> unplaced_;
 };
 

@@ -185,6 +185,11 @@ void Diagnostics::camera(Status& status, const CameraInput& camera, Counts& prev
   if (const auto shares = camera.shares()) {
     status.addf("pixels with a surface [%]", "%.1f", 100.0 * shares->seen);
     status.addf("pixels of the robot itself [%]", "%.1f", 100.0 * shares->self);
+    if (shares->tool_found) status.addf("tool where it is expected [%]", "%.0f", 100.0 * *shares->tool_found);
+    if (shares->misplaced)
+      status.mergeSummary(DiagnosticStatus::ERROR,
+                          "the tool is not in the picture where it is expected: is the camera calibrated to the robot, "
+                          "its frame in tf right, and self_padding larger than the error?");
     if (shares->unplaced_links > 0)
       status.mergeSummaryf(DiagnosticStatus::WARN, "%zu links of the robot are not in tf: they count as surroundings",
                            shares->unplaced_links);
