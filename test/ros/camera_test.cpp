@@ -16,12 +16,11 @@ namespace sweep_guard_ros {
 namespace {
 
 using sweep_guard::Warning;
-using sweep_guard_core::has;
 
-constexpr std::uint32_t kWidth = 64;
-constexpr std::uint32_t kHeight = 48;
-constexpr double kFocal = 60.0;  // [pixels]
-const Eigen::Vector3d kHover(0.0, 0.0, 0.3);
+constexpr std::uint32_t kColumns = 64;
+constexpr std::uint32_t kRows = 48;
+constexpr double kFocalLength = 60.0;  // [pixels]
+const Eigen::Vector3d kOverTable(0.0, 0.0, 0.3);
 
 // What stands on the table: height [m] at a place of the table [m].
 using Scene = std::function<double(double x, double y)>;
@@ -38,14 +37,14 @@ sensor_msgs::Image imageOf(const Scene& scene, ros::Time stamp) {
   image.header.stamp = stamp;
   image.header.frame_id = "front_optical";
   image.encoding = "32FC1";
-  image.width = kWidth;
-  image.height = kHeight;
-  image.step = 4 * kWidth;
-  image.data.resize(size_t{image.step} * kHeight);
-  for (std::uint32_t v = 0; v < kHeight; ++v) {
-    for (std::uint32_t u = 0; u < kWidth; ++u) {
-      const double x = (u - 31.5) / kFocal;  // on the ray, at depth 1
-      const double y = (v - 23.5) / kFocal;
+  image.width = kColumns;
+  image.height = kRows;
+  image.step = 4 * kColumns;
+  image.data.resize(size_t{image.step} * kRows);
+  for (std::uint32_t v = 0; v < kRows; ++v) {
+    for (std::uint32_t u = 0; u < kColumns; ++u) {
+      const double x = (u - 31.5) / kFocalLength;  // on the ray, at depth 1
+      const double y = (v - 23.5) / kFocalLength;
       double depth = 1.0;
       for (int i = 0; i < 20; ++i) depth = 1.0 - scene(x * depth, -y * depth);
       const auto value = static_cast<float>(depth);
@@ -59,9 +58,9 @@ class CameraTest : public ::testing::Test {
  protected:
   CameraTest() {
     info_.header.frame_id = "front_optical";
-    info_.width = kWidth;
-    info_.height = kHeight;
-    info_.P = {kFocal, 0.0, 31.5, 0.0, 0.0, kFocal, 23.5, 0.0, 0.0, 0.0, 1.0, 0.0};
+    info_.width = kColumns;
+    info_.height = kRows;
+    info_.P = {kFocalLength, 0.0, 31.5, 0.0, 0.0, kFocalLength, 23.5, 0.0, 0.0, 0.0, 1.0, 0.0};
     info_publisher_ = node_.advertise<sensor_msgs::CameraInfo>("/front/depth/camera_info", 1, /*latch=*/true);
     images_ = node_.advertise<sensor_msgs::Image>("/front/depth/image_rect", 16);
     info_publisher_.publish(info_);
@@ -120,7 +119,7 @@ TEST_F(CameraTest, NothingIsClearBeforeTheFirstImage) {
   Warning last;
   for (int i = 0; i < 20; ++i) {
     probe().tick(0.01);
-    probe().publish(poseAt(kHover, probe().time()));
+    probe().publish(poseAt(kOverTable, probe().time()));
     last = probe().awaitWarning([](const Warning&) { return true; });
   }
   EXPECT_EQ(last.level, Warning::UNKNOWN);
@@ -129,25 +128,25 @@ TEST_F(CameraTest, NothingIsClearBeforeTheFirstImage) {
 }
 
 TEST_F(CameraTest, WhatTheCameraSeesIsMetAndWhatHasLeftIsNot) {
-  stepUntil(table, kHover, isClear);
-  const Warning contact = stepUntil(handUpTo(0.305), kHover, isContact);
+  stepUntil(table, kOverTable, isClear);
+  const Warning contact = stepUntil(handUpTo(0.305), kOverTable, isContact);
   EXPECT_EQ(contact.mesh_id, "front");
-  stepUntil(table, kHover, isClear);
+  stepUntil(table, kOverTable, isClear);
 }
 
 TEST_F(CameraTest, TheToolTouchesTheTableItself) {
-  stepUntil(table, kHover, isClear);
+  stepUntil(table, kOverTable, isClear);
   for (int mm = 300; mm >= 0; mm -= 5) step(imageOf(table, probe().time()), {0.0, 0.0, 0.001 * mm});
   stepUntil(table, {0.0, 0.0, -0.001}, isContact);
   for (int mm = 0; mm <= 300; mm += 5) step(imageOf(table, probe().time()), {0.0, 0.0, 0.001 * mm});
-  stepUntil(table, kHover, isClear);
+  stepUntil(table, kOverTable, isClear);
 }
 
 // The drill is 0.1 m long, with its tip below, and has a radius of 5 mm: the camera sees its upper end.
 TEST_F(CameraTest, TheToolInThePictureIsNoWorkpiece) {
   const Scene with_tool = [](double x, double y) { return std::hypot(x, y) < 0.02 ? 0.4 : 0.0; };
-  stepUntil(with_tool, kHover, isClear);
-  for (int i = 0; i < 50; ++i) step(imageOf(with_tool, probe().time()), kHover);
+  stepUntil(with_tool, kOverTable, isClear);
+  for (int i = 0; i < 50; ++i) step(imageOf(with_tool, probe().time()), kOverTable);
   EXPECT_TRUE(isClear(probe().warnings().back())) << probe().warnings().back().text;
   const auto status = probe().awaitStatus("/sweep_guard: camera front", [](const GuardProbe::Status& next) {
     return std::atof(valueOf(next, "pixels of the robot itself [%]").c_str()) > 0.0;
@@ -157,14 +156,15 @@ TEST_F(CameraTest, TheToolInThePictureIsNoWorkpiece) {
 
 TEST_F(CameraTest, AnImageThatCannotBeReadIsUnknownInWordsUntilTheNext) {
   const auto refused = [&](const std::string& words, const std::function<void(sensor_msgs::Image&)>& spoil) {
-    stepUntil(table, kHover, isClear);
+    stepUntil(table, kOverTable, isClear);
     const auto spoilt = [&] {
       sensor_msgs::Image image = imageOf(table, probe().time());
       spoil(image);
       return image;
     };
-    const Warning warning = stepUntil(
-        spoilt, kHover, [&](const Warning& next) { return next.level == Warning::UNKNOWN && has(next.text, words); });
+    const Warning warning = stepUntil(spoilt, kOverTable, [&](const Warning& next) {
+      return next.level == Warning::UNKNOWN && has(next.text, words);
+    });
     EXPECT_FALSE(warning.clear);
   };
   refused("rgb8", [](sensor_msgs::Image& image) { image.encoding = "rgb8"; });
@@ -172,20 +172,20 @@ TEST_F(CameraTest, AnImageThatCannotBeReadIsUnknownInWordsUntilTheNext) {
   refused("future", [](sensor_msgs::Image& image) { image.header.stamp += ros::Duration(3600.0); });
   refused("nowhere", [](sensor_msgs::Image& image) { image.header.frame_id = "nowhere"; });
   refused("camera_info", [](sensor_msgs::Image& image) { image.height /= 2; });
-  stepUntil(table, kHover, isClear);
+  stepUntil(table, kOverTable, isClear);
 }
 
 // Otherwise a camera that is unplugged would leave the guard with what it has seen last.
 TEST_F(CameraTest, ACameraThatFallsSilentIsUnknown) {
-  stepUntil(table, kHover, isClear);
+  stepUntil(table, kOverTable, isClear);
   for (int i = 0; i < 80; ++i) {
     probe().tick(0.01);
-    probe().publish(poseAt(kHover, probe().time()));
+    probe().publish(poseAt(kOverTable, probe().time()));
     ros::WallDuration(0.01).sleep();
   }
   const Warning warning = probe().awaitWarning([](const Warning& next) { return next.level == Warning::UNKNOWN; });
   EXPECT_NE(warning.reasons & Warning::MESH_STALE, 0U) << warning.text;
-  stepUntil(table, kHover, isClear);
+  stepUntil(table, kOverTable, isClear);
 }
 
 }  // namespace

@@ -15,7 +15,8 @@
 namespace sweep_guard_ros {
 namespace {
 
-// At 0 signature, length and name of the header; at 16 width and height; at 24 bits, color type, compression, filter, interlace.
+// At 0: signature, length and name of the header. At 16: width and height. At 24: bits, color type, compression,
+// filter, interlace.
 constexpr size_t kHeaderSize = 33;  // [byte]
 constexpr std::string_view kBegin("\x89PNG\r\n\x1A\n\0\0\0\x0DIHDR", 16);
 constexpr std::string_view kGray("\x10\0\0\0\0", 5);
@@ -56,17 +57,12 @@ void readRows(png_structp reader, png_infop info, png_bytep pixels) {
   png_read_end(reader, nullptr);
 }
 
-// No object in here, nor in what libpng calls, has a destructor: png_longjmp() would not call it.
-bool readPng(PngSource& source, png_bytep pixels) {
-  png_structp reader = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, keepProblem, passOverWarning);
-  png_infop info = reader != nullptr ? png_create_info_struct(reader) : nullptr;
-  const bool can_read = info != nullptr && setjmp(png_jmpbuf(reader)) == 0;
-  if (can_read) {
-    png_set_read_fn(reader, &source, takeBytes);
-    readRows(reader, info, pixels);
-  }
-  png_destroy_read_struct(&reader, &info, nullptr);
-  return can_read;
+// png_longjmp() comes back to here and skips no destructor: neither readRows() nor what libpng calls has an object with
+// one.
+bool couldReadRows(png_structp reader, png_infop info, png_bytep pixels) {
+  if (setjmp(png_jmpbuf(reader)) != 0) return false;
+  readRows(reader, info, pixels);
+  return true;
 }
 
 }  // namespace
@@ -82,7 +78,12 @@ ImageSize sizeOfGrayPng(Wire png) {
 
 void readGrayPng(Wire png, std::uint8_t* pixels) {
   PngSource source{png, {"no memory"}};
-  if (!readPng(source, pixels)) refusePng(sweep_guard_core::printable(source.problem.data()));
+  png_structp reader = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, keepProblem, passOverWarning);
+  png_infop info = png_create_info_struct(reader);
+  png_set_read_fn(reader, &source, takeBytes);
+  const bool read = info != nullptr && couldReadRows(reader, info, pixels);
+  png_destroy_read_struct(&reader, &info, nullptr);
+  if (!read) refusePng(sweep_guard_core::printable(source.problem.data()));
 }
 
 }  // namespace sweep_guard_ros
