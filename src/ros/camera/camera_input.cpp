@@ -108,12 +108,13 @@ void CameraInput::take(const Msg& msg, SteadyTime received) {
     const Eigen::Isometry3d X_WC = locate(msg.header.frame_id, stamp);
     surface_->take(depths_, X_WC, reachSince(stamp), self_.at(stamp, camera_.self_padding));
     newest_ = stamp;
+    ++number_;
     keepShares(received);
     image = unusedImage();
     image->mesh_M.deform(surface_->places_F(), surface_->before_F(), surface_->existing());
     image->stamp = stamp;
     image->received = received;
-    image->updates = ++number_;
+    image->updates = number_;
   } catch (const std::exception& error) {  // invalid, no transform, or out of memory
     return refuse(error.what(), received);
   }
