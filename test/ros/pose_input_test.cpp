@@ -39,7 +39,8 @@ class PoseInputTest : public BaseAndArm {
   const sweep_guard_core::WorkpieceStore workpieces_;
   sweep_guard_core::WorkQueue queue_;
   sweep_guard_core::FrameMotionStore frame_motions_;
-  PoseInput input_{node_, live_, {frames_, workpieces_, monitor_, queue_, frame_motions_}};
+  sweep_guard_core::RecentPoses recent_poses_;
+  PoseInput input_{node_, live_, {frames_, workpieces_, monitor_, queue_, frame_motions_, recent_poses_}};
   const ros::Publisher publisher_ = node_.advertise<geometry_msgs::PoseStamped>("tool_pose", 1);
 };
 
@@ -183,7 +184,8 @@ class RestingToolTest : public BaseAndArm {
   const sweep_guard_core::WorkpieceStore workpieces_;
   sweep_guard_core::WorkQueue queue_;
   sweep_guard_core::FrameMotionStore frame_motions_;
-  PoseInput input_{node_, live_from_tf_, {frames_, workpieces_, monitor_, queue_, frame_motions_}};
+  sweep_guard_core::RecentPoses recent_poses_;
+  PoseInput input_{node_, live_from_tf_, {frames_, workpieces_, monitor_, queue_, frame_motions_, recent_poses_}};
 };
 
 TEST_F(RestingToolTest, IsWhereItIsNowAtTheLeastRate) {
