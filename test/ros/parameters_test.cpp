@@ -417,6 +417,50 @@ TEST_F(ParametersTest, ARuleOutOfRangeOrOfAnotherNameIsRefusedWithWhatIsWanted) 
           "but must be a group of groups of {open: true or false, padding: [m] a number from 0 to 1, ");
 }
 
+TEST_F(ParametersTest, ACameraNeedsAnIdAndATopic) {
+  XmlRpc::XmlRpcValue cameras;
+  cameras[0]["id"] = "front";
+  cameras[0]["depth"] = "/front/depth";
+  cameras[0]["timeout"] = 1;
+  node_.setParam("cameras", cameras);
+  const Parameters loaded = loadParameters(node_);
+  ASSERT_EQ(loaded.cameras.size(), 1U);
+  EXPECT_EQ(loaded.cameras[0].depth, "/front/depth");
+  EXPECT_EQ(loaded.cameras[0].options.farthest, 4.0) << "the default";
+  EXPECT_EQ(loaded.limits.meshTimeout("front"), std::chrono::seconds(1));
+  EXPECT_EQ(requiredIds(loaded), std::set<std::string>{"front"});
+  node_.deleteParam("cameras");
+}
+
+TEST_F(ParametersTest, AnEntryOfACameraThatDoesNotFitIsRefusedWithWhatIsWanted) {
+  const auto refused = [&](const std::string& entry, const XmlRpc::XmlRpcValue& value, const std::string& wanted) {
+    XmlRpc::XmlRpcValue cameras;
+    cameras[0]["id"] = "front";
+    cameras[0]["depth"] = "/front/depth";
+    cameras[0][entry] = value;
+    node_.setParam("cameras", cameras);
+    EXPECT_TRUE(has(refusal(node_), "/guarded/cameras is ")) << refusal(node_);
+    EXPECT_TRUE(has(refusal(node_), wanted)) << refusal(node_);
+  };
+  XmlRpc::XmlRpcValue pair;
+  pair[0] = 2.0;
+  refused("range", pair, "must be with range: a list of two numbers");
+  pair[1] = 1.0;
+  refused("range", pair, "must be with range: [nearest, farthest]");
+  refused("id", "", "must be a list of groups that each have id: TEXT, not empty");
+  refused("depth", 7, "must be a list of groups that each have depth: TEXT, not empty");
+  refused("timeout", 0.0, "must be with timeout: [s] a number from 0.01 to 60");
+  refused("surface_sped", 1.0, "must be without surface_sped, of which a camera has none");
+  XmlRpc::XmlRpcValue twice;
+  for (const int i : {0, 1}) {
+    twice[i]["id"] = "front";
+    twice[i]["depth"] = "/front/depth";
+  }
+  node_.setParam("cameras", twice);
+  EXPECT_TRUE(has(refusal(node_), "must be with each id once")) << refusal(node_);
+  node_.deleteParam("cameras");
+}
+
 TEST_F(ParametersTest, GroupsWithoutAValueAreRefused) {
   XmlRpc::XmlRpcValue empty;
   empty.begin();  // makes it a group
