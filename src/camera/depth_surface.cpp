@@ -29,6 +29,18 @@ void checkOptions(const DepthOptions& options) {
         "the margin of a camera is at least 0 and finite");
 }
 
+// Returns whether no plane of a convex volume has a segment wholly beyond it.
+bool mayMeet(const SweptVolume& body_F, const Eigen::Vector3d& from_F, const Eigen::Vector3d& to_F) {
+  const Eigen::Isometry3d X_BF = body_F.box.X_MB.inverse();
+  const Eigen::Vector3d from_B = X_BF * from_F;
+  const Eigen::Vector3d to_B = X_BF * to_F;
+  bool beyond = false;
+  body_F.forEachHalfSpace([&](const Eigen::Vector3d& normal_B, double offset) {
+    beyond = beyond || (normal_B.dot(from_B) > offset && normal_B.dot(to_B) > offset);
+  });
+  return !beyond;
+}
+
 }  // namespace
 
 DepthSurface::DepthSurface(const Grid& grid, const Pinhole& camera, const DepthOptions& options)
@@ -63,13 +75,24 @@ DepthSurface::DepthSurface(const Grid& grid, const Pinhole& camera, const DepthO
 void DepthSurface::take(const std::vector<float>& depths, const Eigen::Isometry3d& X_FC, double reach,
                         const std::vector<SweptVolume>& bodies_F) {
   assert(depths.size() == size_t{grid_.width()} * grid_.height());
-  if (X_FC.matrix() != X_FC_.matrix()) forget();
-  X_FC_ = X_FC;
+  findRest(X_FC);
   for (size_t row = 0; row < grid_.height(); ++row) readRow(depths, row);
-  placeVertices(X_FC, places_F_);
+  placeVertices(X_FC_, places_F_);
   hideSelf(bodies_F);
   findTriangles();
   findMotion(reach);
+}
+
+// Transforms that are interpolated differ in their last digits.
+void DepthSurface::findRest(const Eigen::Isometry3d& X_FC) {
+  const Eigen::Isometry3d moved = X_FC_.inverse() * X_FC;
+  const double farthest = options_.farthest * std::sqrt(1.0 + x_.front() * x_.front() + x_.back() * x_.back() +
+                                                        y_.front() * y_.front() + y_.back() * y_.back());
+  const double turned = (moved.linear() - Eigen::Matrix3d::Identity()).norm() * farthest;
+  rests_ = moved.translation().norm() + turned <= kStill;
+  if (rests_) return;
+  X_FC_ = X_FC;
+  forget();
 }
 
 // Where the camera goes, its pixels show something else.
@@ -93,14 +116,23 @@ void DepthSurface::readRow(const std::vector<float>& depths, size_t row) {
     depths_[to + i] = depth;
     steps_[to + i] = slope * depth + 2.0F * error;
     nearer_[to + i] = std::max(depth - error * inverse_[to + i], 0.0F);
+    remembered_[to + i] = depths[from + i] > farthest ? kNothing : remembered_[to + i];
   }
 }
 
-// Pixels that show the robot become what they showed before.
+// Pixels that the robot hides become what they showed before.
 void DepthSurface::hideSelf(const std::vector<SweptVolume>& bodies_F) {
-  self_.find(places_F_, bodies_F);
-  for (size_t tile = 0; tile < self_.tiles().size(); ++tile) {
-    if (self_.tiles()[tile] != 0) hideSelf(tile);
+  bodies_F_.clear();
+  for (const SweptVolume& body_F : bodies_F) {
+    const double depth = (X_FC_.inverse() * body_F.box.X_MB.translation()).z() + body_F.box.half_extents.norm();
+    bodies_F_.push_back(body_F.grown(options_.margin[0] + options_.margin[1] * depth * depth));
+  }
+  hidden_.assign(grid_.tiles(), 0);
+  findShown();
+  for (const SweptVolume& body_F : bodies_F_) findCast(body_F);
+  hidden_count_ = 0;
+  for (size_t tile = 0; tile < hidden_.size(); ++tile) {
+    if (hidden_[tile] != 0) hide(tile);
   }
   size_t seen = 0;
   for (size_t pixel = 0; pixel < depths_.size(); ++pixel) {
@@ -111,18 +143,76 @@ void DepthSurface::hideSelf(const std::vector<SweptVolume>& bodies_F) {
   seen_ = seen;
 }
 
-void DepthSurface::hideSelf(size_t tile) {
-  const size_t row = tile / grid_.tileColumns() * kRows;
-  const size_t column = tile % grid_.tileColumns() * kColumns;
-  for (std::uint32_t left = self_.tiles()[tile]; left != 0; left &= left - 1) {
-    const auto i = static_cast<size_t>(__builtin_ctz(left));
-    const size_t pixel = (row + i / kColumns) * stride_ + column + i % kColumns;
+// Where the robot is seen.
+void DepthSurface::findShown() {
+  self_.find(places_F_, bodies_F_);
+  for (size_t tile = 0; tile < hidden_.size(); ++tile) {
+    for (std::uint32_t left = self_.tiles()[tile]; left != 0; left &= left - 1) {
+      const auto i = static_cast<std::uint32_t>(__builtin_ctz(left));
+      if (!std::isnan(depths_[pixelOf(tile, i)])) hidden_[tile] |= std::uint32_t{1} << i;
+    }
+  }
+}
+
+// Where nothing is seen and a ray comes to a body: where it is between the depths of the body, it is not beyond one plane.
+void DepthSurface::findCast(const SweptVolume& body_F) {
+  const PixelBounds bounds = boundsOf(body_F);
+  for (std::uint32_t v = bounds.top; v < bounds.bottom; ++v) {
+    for (std::uint32_t u = bounds.left; u < bounds.right; ++u) {
+      if (!std::isnan(depths_[v * stride_ + u])) continue;
+      const Eigen::Vector3d ray_F = X_FC_.linear() * Eigen::Vector3d(x_[u], y_[v], 1.0);
+      if (!mayMeet(body_F, X_FC_.translation() + bounds.nearest * ray_F, X_FC_.translation() + bounds.farthest * ray_F))
+        continue;
+      const std::uint32_t place = grid_.place(u, v);
+      hidden_[place / Grid::kTilePixels] |= std::uint32_t{1} << place % Grid::kTilePixels;
+    }
+  }
+}
+
+// Returns the pixels and depths in which a body may be.
+DepthSurface::PixelBounds DepthSurface::boundsOf(const SweptVolume& body_F) const {
+  const Eigen::Isometry3d X_CB = X_FC_.inverse() * body_F.box.X_MB;
+  Eigen::AlignedBox3d bounds_C;
+  Eigen::AlignedBox2d picture;
+  const auto limits = [](double low, double high, std::uint32_t size) {
+    const auto clamped = [size](double at) {
+      return static_cast<std::uint32_t>(std::clamp(at, 0.0, static_cast<double>(size)));
+    };
+    return std::pair(clamped(std::floor(low)), clamped(std::ceil(high) + 1.0));
+  };
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3d sides((corner & 1) != 0 ? 1.0 : -1.0, (corner & 2) != 0 ? 1.0 : -1.0,
+                                (corner & 4) != 0 ? 1.0 : -1.0);
+    const Eigen::Vector3d p_C = X_CB * sides.cwiseProduct(body_F.box.half_extents);
+    bounds_C.extend(p_C);
+    const double z = std::max(p_C.z(), 1e-6);
+    picture.extend(Eigen::Vector2d(camera_.fx * p_C.x() / z + camera_.cx, camera_.fy * p_C.y() / z + camera_.cy));
+  }
+  if (bounds_C.max().z() <= 0.0) return {};
+  const bool around = bounds_C.min().z() <= 1e-3;
+  const auto [left, right] =
+      around ? std::pair(0U, grid_.width()) : limits(picture.min().x(), picture.max().x(), grid_.width());
+  const auto [top, bottom] =
+      around ? std::pair(0U, grid_.height()) : limits(picture.min().y(), picture.max().y(), grid_.height());
+  return {left, right, top, bottom, std::max(0.0, bounds_C.min().z()), bounds_C.max().z()};
+}
+
+void DepthSurface::hide(size_t tile) {
+  for (std::uint32_t left = hidden_[tile]; left != 0; left &= left - 1, ++hidden_count_) {
+    const size_t pixel = pixelOf(tile, static_cast<std::uint32_t>(__builtin_ctz(left)));
     setDepth(pixel, remembered_[pixel]);
   }
+  const size_t row = tile / grid_.tileColumns() * kRows;
+  const size_t column = tile % grid_.tileColumns() * kColumns;
   for (size_t i = 0; i < kRows; ++i) {
     const size_t place = tile * Grid::kTilePixels + i * kColumns;
     placeRow(X_FC_, column, row + i, &places_F_[3 * (place == 0 ? 0 : place - 1)], &places_F_[3 * place]);
   }
+}
+
+size_t DepthSurface::pixelOf(size_t tile, std::uint32_t i) const {
+  const size_t row = tile / grid_.tileColumns() * kRows + i / kColumns;
+  return row * stride_ + tile % grid_.tileColumns() * kColumns + i % kColumns;
 }
 
 void DepthSurface::setDepth(size_t pixel, float depth) {
@@ -172,9 +262,9 @@ DepthSurface::Expected DepthSurface::compare(const std::vector<float>& depths,
     const auto column = static_cast<std::uint32_t>(u);
     const auto row = static_cast<std::uint32_t>(v);
     const std::uint32_t place = grid_.place(column, row);
-    const bool found = (self_.tiles()[place / Grid::kTilePixels] >> place % Grid::kTilePixels & 1U) != 0;
+    const bool found = (hidden_[place / Grid::kTilePixels] >> place % Grid::kTilePixels & 1U) != 0;
     const float depth = depths[size_t{row} * grid_.width() + column];
-    if (!found && !(depth > p_C.z())) continue;
+    if (std::isnan(depth) || (!found && depth <= p_C.z())) continue;
     ++expected.points;
     expected.found += found ? 1 : 0;
   }

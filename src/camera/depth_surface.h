@@ -29,12 +29,15 @@ struct DepthOptions {
 /// one across a step, where something nearer ends in front of something else: between them nothing was seen. A step is what would be
 /// a surface that one sees at less than 6 degrees.
 ///
-/// While the camera rests, a pixel that shows the robot itself is a vertex where it was last before the robot hid it, and a pixel
-/// whose depth changes by little has moved along its ray. A larger change says that something came or went.
+/// While the camera rests, a pixel that shows the robot itself, or that has no depth where the robot is, is a vertex where it was
+/// last before the robot hid it, and a pixel whose depth changes by little has moved along its ray. A larger change says that
+/// something came or went. A camera rests as long as no point that it may see moves by more than kStill in the picture.
 ///
 /// Takes a pass over the pixels each for depths, positions, triangles and motion, and allocates nothing once it is made.
 class DepthSurface {
  public:
+  static constexpr double kStill = 1e-5;  ///< [m]; where it rests, its vertices are as far from where they are
+
   /// @throws InvalidInput if camera or options are not as above, or not finite
   DepthSurface(const Grid& grid, const Pinhole& camera, const DepthOptions& options);
 
@@ -54,7 +57,8 @@ class DepthSurface {
   /// Returns for each cluster the bits of its triangles that exist; the same.
   std::vector<std::uint64_t>& existing() { return existing_; }
   size_t seen() const { return seen_; }          ///< pixels of the newest image that are vertices
-  size_t self() const { return self_.count(); }  ///< pixels of the newest image that show the robot
+  size_t self() const { return hidden_count_; }  ///< pixels of the newest image that the robot hides
+  bool rests() const { return rests_; }          ///< the camera, since the image before
 
   /// Points of the robot that the newest image has to show, and how many it shows where they are expected.
   struct Expected {
@@ -70,11 +74,21 @@ class DepthSurface {
   static constexpr size_t kColumns = Grid::kTileColumns;
   static constexpr size_t kRows = Grid::kTileRows;
 
+  void findRest(const Eigen::Isometry3d& X_FC);
   void forget();
   void readRow(const std::vector<float>& depths, size_t row);
   void setDepth(size_t pixel, float depth);
   void hideSelf(const std::vector<SweptVolume>& bodies_F);
-  void hideSelf(size_t tile);
+  void findShown();
+  struct PixelBounds {
+    std::uint32_t left = 0, right = 0;     // columns, the last not included
+    std::uint32_t top = 0, bottom = 0;     // rows
+    double nearest = 0.0, farthest = 0.0;  // depths [m]
+  };
+  void findCast(const SweptVolume& body_F);
+  PixelBounds boundsOf(const SweptVolume& body_F) const;
+  size_t pixelOf(size_t tile, std::uint32_t i) const;
+  void hide(size_t tile);
   void findMotion(double reach);
   void endMotions(float reach, size_t pixel, size_t place);
   void placeVertices(const Eigen::Isometry3d& X_FC, std::vector<float>& places_F) const;
@@ -105,7 +119,11 @@ class DepthSurface {
   std::vector<float> before_F_;
   std::vector<std::uint64_t> existing_;
   Eigen::Isometry3d X_FC_ = Eigen::Isometry3d::Identity();
+  bool rests_ = false;
   SelfPixels self_;
+  std::vector<SweptVolume> bodies_F_;  // with the margin
+  std::vector<std::uint32_t> hidden_;  // of each tile, a bit for each pixel that the robot hides
+  size_t hidden_count_ = 0;
   size_t seen_ = 0;
 };
 

@@ -25,8 +25,6 @@ void SelfPixels::find(const std::vector<float>& places_F, const std::vector<Swep
   tiles_.assign(blocks_.count(), 0);
   beyond_.resize(simd::padded(blocks_.count()));
   for (const SweptVolume& body_F : bodies_F) add(places_F, planesOf(body_F));
-  count_ = 0;
-  for (const std::uint32_t tile : tiles_) count_ += static_cast<size_t>(__builtin_popcount(tile));
 }
 
 void SelfPixels::add(const std::vector<float>& places_F, const simd::Planes& planes) {

@@ -9,17 +9,16 @@
 
 namespace sweep_guard_core {
 
-/// Finds the pixels that show the robot itself: what lies in the volumes around its bodies. Keeps its buffers.
+/// Finds the vertices that the robot itself has: what lies in the volumes around its bodies. Keeps its buffers.
 class SelfPixels {
  public:
-  /// Finds the pixels within any of the volumes. Tests the boxes of tiles first.
+  /// Finds the vertices within any of the volumes. Tests the boxes of tiles first.
   /// @param places_F   of the vertices of a grid: x0 y0 z0 x1 ... [m]
   /// @param bodies_F   convex volumes around the bodies, as much larger as what is near to them counts as the robot
   void find(const std::vector<float>& places_F, const std::vector<SweptVolume>& bodies_F);
 
   /// Returns for each tile of the grid a bit for each of its pixels.
   const std::vector<std::uint32_t>& tiles() const { return tiles_; }
-  size_t count() const { return count_; }  ///< pixels found
 
  private:
   void add(const std::vector<float>& places_F, const simd::Planes& planes);
@@ -27,7 +26,6 @@ class SelfPixels {
   VertexBlocks blocks_;
   std::vector<std::uint16_t> beyond_;  // of each tile, planes
   std::vector<std::uint32_t> tiles_;
-  size_t count_ = 0;
 };
 
 }  // namespace sweep_guard_core

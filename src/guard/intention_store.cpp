@@ -60,7 +60,8 @@ Intention intentionOf(const IntentionRequest& request, const Workpieces& workpie
   if (request.takesBack()) return {request.mesh_id, nullptr, {}};
   const Workpiece& workpiece = workpieceOf(request.mesh_id, workpieces);
   if (workpiece.of_camera) {
-    throw InvalidInput("'" + workpiece.id + "' is what a camera sees: its triangles are pixels, and stand for no region");
+    throw InvalidInput("'" + workpiece.id +
+                       "' is what a camera sees: its triangles are pixels, and stand for no region");
   }
   checkLimits(request);
   Intention intention{request.mesh_id, workpiece.mesh_M.sharedTriangles(), regionOf(request, workpiece), request.depth,

@@ -207,7 +207,9 @@ void MeasuredSweeps::addMeshes(const SweepSetup& setup, Time pose, const std::sh
   const Workpiece& before = *swept.deformations.back();
   if (workpiece.get() == &before) return;
   meshes_.push_back(MovingMesh::grid(workpiece->mesh_M));
-  if (workpiece->updates > before.updates + 1) object.behind = std::max(object.behind, workpiece->stamp - before.stamp);
+  const Duration interval = workpiece->stamp - before.stamp;
+  const bool is_whole = workpiece->updates <= before.updates + 1 && interval <= kMaxUpdateInterval;
+  if (!is_whole) object.behind = std::max(object.behind, interval);
 }
 
 void MeasuredSweeps::endPassage(const Passage& passage, const std::shared_ptr<const Workpiece>& workpiece,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <condition_variable>
 #include <deque>
 #include <optional>
 #include <utility>
@@ -15,12 +16,14 @@ class RecentPoses {
   /// Adds a pose. One whose stamp is older than the newest begins anew: time has gone back.
   void add(Time stamp, const BodyPoses& bodies);
 
-  /// Returns the bodies at the last pose not after a time, and at the first not before it. After the newest pose, that twice; empty
-  /// if there is none, or all are later.
-  std::optional<std::pair<BodyPoses, BodyPoses>> around(Time stamp) const;
+  /// Returns the bodies at the last pose not after a time, and at the first not before it. Waits for the latter; empty if it does not
+  /// come, or all poses are later.
+  /// @param wait  for no longer, on the steady clock
+  std::optional<std::pair<BodyPoses, BodyPoses>> around(Time stamp, Duration wait) const;
 
  private:
   mutable Mutex mutex_;
+  mutable std::condition_variable_any added_;
   std::deque<std::pair<Time, BodyPoses>> poses_ GUARDED_BY(mutex_);  // the oldest first
 };
 

@@ -110,8 +110,8 @@ void WorkpieceStore::show(const std::shared_ptr<const Workpiece>& image, Time la
 UpdateOutcome WorkpieceStore::confirm(const Deformation& deformation) const {
   const auto held = attached(deformation.id);
   const std::shared_ptr<const Workpiece> current = held ? held->workpiece : find(deformation.id);
-  const bool same = current && !current->of_camera && current->revision == deformation.revision && current->frame == deformation.frame &&
-                    current->stamp <= deformation.stamp;
+  const bool same = current && !current->of_camera && current->revision == deformation.revision &&
+                    current->frame == deformation.frame && current->stamp <= deformation.stamp;
   return same ? UpdateOutcome::kConfirmed : UpdateOutcome::kIgnored;
 }
 

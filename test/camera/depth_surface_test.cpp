@@ -268,6 +268,52 @@ TEST_F(DepthMotionTest, ACameraThatMovesForgetsWhatTheRobotHides) {
   EXPECT_EQ(surface_.seen(), size_t{kWidth} * kHeight - 1);
 }
 
+// As of a black one, or in its shadow.
+TEST_F(DepthMotionTest, WhatARobotWithoutDepthHidesStaysWhereItWasSeen) {
+  take(wall(1.0F), 0.0);
+  std::vector<float> robot = wall(1.0F);
+  at(robot, 26, 18) = kNone;
+  at(robot, 50, 5) = kNone;
+  take(robot, 0.0, {boxAt(0.5)});
+  EXPECT_EQ(surface_.self(), 1U);
+  EXPECT_EQ(surface_.seen(), size_t{kWidth} * kHeight - 1) << "beside it, nothing is seen";
+  EXPECT_TRUE(now(26, 18).isApprox(onRay(26, 18, 1.0), 1e-6));
+}
+
+TEST_F(DepthMotionTest, WhatHasGivenWayToTheDistanceIsNotRemembered) {
+  take(wall(1.0F), 0.0);
+  take(wall(7.0F), 0.0);
+  std::vector<float> robot = wall(7.0F);
+  at(robot, 26, 18) = 0.5F;
+  take(robot, 0.0, {boxAt(0.5)});
+  EXPECT_EQ(surface_.seen(), 0U);
+}
+
+// Transforms between two equal ones differ in their last digits.
+TEST_F(DepthMotionTest, ACameraThatRestsUpToRoundingRemembers) {
+  take(wall(1.0F), 0.0);
+  X_FC_ = Eigen::AngleAxisd(1e-13, Eigen::Vector3d::UnitX());
+  X_FC_.translation().x() = 1e-13;
+  take(wall(0.9F), 1.0);
+  EXPECT_TRUE(surface_.rests());
+  EXPECT_TRUE(before(40, 30).isApprox(onRay(40, 30, 1.0), 1e-6));
+}
+
+TEST_F(DepthMotionTest, SmallMotionsOfACameraAddUp) {
+  take(wall(1.0F), 0.0);
+  for (int i = 0; i < 2; ++i) {
+    X_FC_.translation().x() += 0.6 * DepthSurface::kStill;
+    take(wall(1.0F), 1.0);
+    EXPECT_EQ(surface_.rests(), i == 0);
+  }
+}
+
+TEST_F(DepthMotionTest, TheMarginTakesTheRobotNotOutOfItsVolume) {
+  DepthSurface surface(grid_, kCamera, {0.1, 4.0, {0.1, 0.0}});
+  surface.take(wall(0.5F), X_FC_, 0.0, {boxAt(0.5)});
+  EXPECT_GT(surface.self(), 50U);
+}
+
 TEST_F(DepthMotionTest, WhatStandsBesideTheRobotIsASurface) {
   take(wall(1.0F), 0.0);
   take(wall(0.5F), 0.0, {boxAt(0.6)});

@@ -156,6 +156,13 @@ TEST_F(CameraSweepsTest, AnImageThatWasNotSweptIsTold) {
   EXPECT_TRUE(sweepTo(0.08, {0.2, 0.1, 0.3}, camera_.see(0.075, wall())).complete());
 }
 
+TEST_F(CameraSweepsTest, ImagesMoreThanHalfASecondApartAreNotSweptForAllOfTheTime) {
+  for (const double seconds : {0.0, 0.4}) {
+    EXPECT_TRUE(sweepTo(seconds, {0.2, 0.1, 0.3}, camera_.see(seconds, wall())).complete()) << seconds;
+  }
+  EXPECT_FALSE(sweepTo(0.95, {0.2, 0.1, 0.3}, camera_.see(0.94, wall())).complete());
+}
+
 TEST_F(CameraSweepsTest, OfMoreThanSixteenImagesBetweenTwoPosesTheOldestAreToldAsLeftOut) {
   sweepTo(0.0, {0.2, 0.1, 0.3}, camera_.see(0.0, wall()));
   for (int i = 1; i <= 16; ++i) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <future>
+
 #include "guard/times.h"
 #include "scenes.h"
 
@@ -13,7 +15,7 @@ class RecentPosesTest : public testing::Test {
   void add(double seconds) { poses_.add(atSecond(seconds), {BodyPose{up(seconds)}}); }
   // Returns the heights around a time, which are the stamps.
   std::pair<double, double> around(double seconds) const {
-    const auto found = poses_.around(atSecond(seconds));
+    const auto found = poses_.around(atSecond(seconds), Duration::zero());
     if (!found) return {-1.0, -1.0};
     return {found->first[0].X_WB.translation().z(), found->second[0].X_WB.translation().z()};
   }
@@ -27,9 +29,17 @@ TEST_F(RecentPosesTest, AreThoseBeforeAndAfterATime) {
   EXPECT_EQ(around(1.25), std::pair(1.25, 1.5));
 }
 
-TEST_F(RecentPosesTest, AfterTheNewestIsTheNewest) {
+TEST_F(RecentPosesTest, AreTheNewestTwiceAtItsTimeAndUnknownAfterIt) {
   add(1.0);
-  EXPECT_EQ(around(7.0), std::pair(1.0, 1.0));
+  EXPECT_EQ(around(1.0), std::pair(1.0, 1.0));
+  EXPECT_EQ(around(1.001), std::pair(-1.0, -1.0));
+}
+
+TEST_F(RecentPosesTest, AreWaitedFor) {
+  add(1.0);
+  auto found = std::async(std::launch::async, [&] { return poses_.around(atSecond(1.5), std::chrono::seconds(20)); });
+  add(2.0);
+  ASSERT_TRUE(found.get());
 }
 
 TEST_F(RecentPosesTest, NoneIsKnownBeforeTheFirst) {
@@ -47,7 +57,8 @@ TEST_F(RecentPosesTest, OlderThanASecondAreForgotten) {
 TEST_F(RecentPosesTest, TimeThatGoesBackBeginsAnew) {
   add(5.0);
   add(1.0);
-  EXPECT_EQ(around(5.0), std::pair(1.0, 1.0));
+  EXPECT_EQ(around(5.0), std::pair(-1.0, -1.0));
+  EXPECT_EQ(around(1.0), std::pair(1.0, 1.0));
 }
 
 }  // namespace

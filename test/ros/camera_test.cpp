@@ -4,6 +4,7 @@
 #include <sensor_msgs/Image.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -181,10 +182,21 @@ TEST_F(CameraTest, AnImageThatCannotBeReadIsUnknownInWordsUntilTheNext) {
     EXPECT_FALSE(warning.clear);
   };
   refused("rgb8", [](sensor_msgs::Image& image) { image.encoding = "rgb8"; });
+  refused("covered", [](sensor_msgs::Image& image) { std::fill(image.data.begin(), image.data.end(), 0U); });
   refused("step", [](sensor_msgs::Image& image) { image.step = 3; });
   refused("future", [](sensor_msgs::Image& image) { image.header.stamp += ros::Duration(3600.0); });
   refused("nowhere", [](sensor_msgs::Image& image) { image.header.frame_id = "nowhere"; });
   refused("camera_info", [](sensor_msgs::Image& image) { image.height /= 2; });
+  stepUntil(table, kOverTable, isClear);
+}
+
+TEST_F(CameraTest, AMeshByTheNameOfACameraIsRefused) {
+  stepUntil(table, kOverTable, isClear);
+  probe().publish(squareAt("front", {0.0, 0.0, -1.0}, probe().time()));
+  const Warning warning =
+      stepUntil(table, kOverTable, [](const Warning& next) { return next.level == Warning::UNKNOWN; });
+  EXPECT_NE(warning.reasons & Warning::MESH_INVALID, 0U) << warning.text;
+  EXPECT_TRUE(has(warning.text, "'front' is that of a camera")) << warning.text;
   stepUntil(table, kOverTable, isClear);
 }
 

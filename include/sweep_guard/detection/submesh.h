@@ -27,7 +27,7 @@ class Submesh {
   const Eigen::AlignedBox3d& bounds() const { return *bounds_; }
   bool empty() const { return clusters_->empty(); }
 
-  /// Returns the blocks, as indices into the boxes of mesh_M().blocks().
+  /// Returns the blocks, as indices into the boxes of mesh_M().blocks() or, in motion, blocksInMotion().
   const std::vector<std::uint32_t>& blocks() const { return *blocks_; }
   /// Returns the boxes around the vertices of blocks(), in that order, relative to mesh_M().origin() [m]; each array is
   /// padded to a multiple of simd::kPadding with unspecified values.

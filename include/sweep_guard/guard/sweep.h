@@ -114,8 +114,8 @@ struct SweptObject {
   /// stamp of the newest pose. A contact that a mesh update caused before this stamp has time 0.
   Time interval_start;
   /// Time by which the pose that the sweep began at is older than the oldest update of the workpiece still kept: the
-  /// sweep leaves out how the workpiece moved in between. Or the time between two images of a camera, if any between them was not
-  /// swept. 0: nothing is left out.
+  /// sweep leaves out how the workpiece moved in between. Or the time between two images of a camera, if one between them was not
+  /// swept, or if that is more than 0.5 s, for which poses are kept. 0: nothing is left out.
   Duration behind{};
   /// Bodies of several that stay out of reach of the workpiece have no volumes, nor a margin.
   SweepResult result;

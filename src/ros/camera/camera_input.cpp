@@ -4,6 +4,7 @@
 #include <sensor_msgs/Image.h>
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 #include <utility>
 
@@ -20,13 +21,13 @@ using sweep_guard_core::SteadyTime;
 using sweep_guard_core::Time;
 using sweep_guard_core::Workpiece;
 
-constexpr size_t kMaxWaiting = 16;             // images, see Worker: each counts as a byte
-constexpr std::uint32_t kQueued = 100;         // messages; taken from roscpp's queue at once
-constexpr size_t kMaxImageSize = 128U << 20U;  // [bytes]; kMaxPixels take 32 MiB
-constexpr size_t kMaxInfoSize = 1U << 16U;     // [bytes]
-constexpr size_t kLeastPoints = 7;             // of the tool in the picture
-constexpr double kMostFound = 0.5;
-constexpr sweep_guard_core::Duration kMisplaced = std::chrono::seconds(5);
+constexpr size_t kMaxWaiting = 16;            // images, see Worker: each counts as a byte
+constexpr std::uint32_t kQueued = 100;        // messages; taken from roscpp's queue at once
+constexpr size_t kMaxImageSize = 33U << 20U;  // [bytes]; Grid::kMaxPixels take 32 MiB
+constexpr size_t kMaxInfoSize = 1U << 16U;    // [bytes]
+constexpr size_t kLeastPoints = 7;            // of the tool in the picture
+constexpr double kLeastFound = 0.5;
+constexpr sweep_guard_core::Duration kPatience = std::chrono::seconds(5);
 constexpr size_t kRemembered = 64;  // images: snapshots that none of them needed are given back
 
 bool isCompressed(const std::string& topic) {
@@ -36,6 +37,12 @@ bool isCompressed(const std::string& topic) {
 
 bool isSame(const sweep_guard_core::Pinhole& a, const sweep_guard_core::Pinhole& b) {
   return std::tie(a.fx, a.fy, a.cx, a.cy) == std::tie(b.fx, b.fy, b.cx, b.cy);
+}
+
+void requireSight(const std::vector<float>& depths) {
+  const auto is_nothing = [](float depth) { return std::isnan(depth); };
+  if (std::all_of(depths.begin(), depths.end(), is_nothing))
+    throw InvalidInput("it has no depth in any pixel: is the camera covered?");
 }
 
 // As image_transport has it, beside the images.
@@ -51,7 +58,7 @@ CameraInput::CameraInput(ros::NodeHandle node, const CameraParameters& camera,
     : camera_(camera),
       dependencies_(dependencies),
       topic_(node.resolveName(camera.depth)),
-      info_topic_(infoTopicOf(topic_)),
+      info_topic_(node.resolveName(infoTopicOf(topic_))),
       self_(dependencies.parameters, dependencies.frames, dependencies.poses),
       worker_(kMaxWaiting),
       images_(isCompressed(topic_) ? subscribe<sensor_msgs::CompressedImage>(node)
@@ -87,13 +94,17 @@ std::optional<CameraInput::Shares> CameraInput::shares() const {
 
 void CameraInput::keepShares(SteadyTime received) {
   const auto share = [](size_t part, size_t all) { return static_cast<double>(part) / static_cast<double>(all); };
-  Shares shares{share(surface_->seen(), depths_.size()), share(surface_->self(), depths_.size()),
-                self_.unplaced().size(), std::nullopt, false};
+  Shares shares{share(surface_->seen(), depths_.size()),
+                share(surface_->self(), depths_.size()),
+                self_.unplaced().size(),
+                std::nullopt,
+                surface_->rests(),
+                false};
   const auto [points, found] = surface_->compare(depths_, self_.toolPoints());
   if (points >= kLeastPoints) shares.tool_found = share(found, points);
-  if (!shares.tool_found || *shares.tool_found >= kMostFound) misplaced_since_.reset();
-  if (shares.tool_found && *shares.tool_found < kMostFound && !misplaced_since_) misplaced_since_ = received;
-  shares.misplaced = misplaced_since_ && received - *misplaced_since_ >= kMisplaced;
+  if (!shares.tool_found || *shares.tool_found >= kLeastFound) misplaced_since_.reset();
+  if (shares.tool_found && *shares.tool_found < kLeastFound && !misplaced_since_) misplaced_since_ = received;
+  shares.misplaced = misplaced_since_ && received - *misplaced_since_ >= kPatience;
   const sweep_guard_core::Lock lock(shares_mutex_);
   shares_ = shares;
 }
@@ -105,6 +116,7 @@ void CameraInput::take(const Msg& msg, SteadyTime received) {
     checkHeader(msg.header);
     const Time stamp = fromMsg(msg.header.stamp);
     prepare(readDepths(msg, depths_));
+    requireSight(depths_);
     const Eigen::Isometry3d X_WC = locate(msg.header.frame_id, stamp);
     surface_->take(depths_, X_WC, reachSince(stamp), self_.at(stamp, camera_.self_padding));
     newest_ = stamp;
@@ -125,7 +137,7 @@ void CameraInput::take(const Msg& msg, SteadyTime received) {
   }
 }
 
-// Begins anew with a camera of another size or calibration.
+// Begins anew with a camera of another size or calibration, and after another tool, in whose place the surroundings were seen.
 void CameraInput::prepare(const ImageSize& size) {
   sensor_msgs::CameraInfo::ConstPtr info;
   {
@@ -134,8 +146,10 @@ void CameraInput::prepare(const ImageSize& size) {
   }
   if (!info) throw InvalidInput("no camera_info has come on " + info_topic_ + ": publish it beside the images");
   const sweep_guard_core::Pinhole pinhole = pinholeOf(*info, size, isNamedRectified(topic_));
+  const auto bodies = dependencies_.parameters.get()->bodies;
   const bool same_size = empty_ && size.width == size_.width && size.height == size_.height;
-  if (same_size && surface_ && isSame(pinhole, pinhole_)) return;
+  if (same_size && surface_ && isSame(pinhole, pinhole_) && bodies == bodies_) return;
+  bodies_ = bodies;
   const sweep_guard_core::Grid grid(size.width, size.height);
   surface_.emplace(grid, pinhole, camera_.options);
   pinhole_ = pinhole;

@@ -63,6 +63,7 @@ class CameraInput {
     size_t unplaced_links;  ///< of the robot description, that tf did not know at its stamp: they count as surroundings
     /// Of the points of the tool in the picture, the share that shows the tool; empty: too few are in it.
     std::optional<double> tool_found;
+    bool rests;      ///< the camera: what the robot hides is remembered
     bool misplaced;  ///< for 5 s, less than half of the tool is where it is expected
   };
   std::optional<Shares> shares() const;  ///< of the newest image; empty: none has come
@@ -97,6 +98,7 @@ class CameraInput {
   std::string frame_;
   ImageSize size_{};
   sweep_guard_core::Pinhole pinhole_{};
+  std::shared_ptr<const std::vector<sweep_guard_core::Tool>> bodies_;
   std::vector<float> depths_;
   std::optional<sweep_guard_core::DepthSurface> surface_;  // of images of this size and camera; empty: none has come
   std::optional<sweep_guard_core::TriangleMesh> empty_;    // of the size

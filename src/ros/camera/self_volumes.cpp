@@ -1,7 +1,9 @@
 #include "ros/camera/self_volumes.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "sweep_guard/common/error.h"
 #include "sweep_guard/geometry/motion.h"
 
 namespace sweep_guard_ros {
@@ -31,15 +33,19 @@ const std::vector<sweep_guard_core::SweptVolume>& SelfVolumes::at(sweep_guard_co
   points_W_.clear();
   unplaced_.clear();
   const auto parameters = parameters_.get();
+  const auto end = std::chrono::steady_clock::now() + parameters->limits.pose_timeout;
   addTool(*parameters, stamp, padding);
-  if (parameters->robot_links) addLinks(*parameters, stamp, padding);
+  if (parameters->robot_links) addLinks(*parameters, stamp, padding, end);
   return volumes_W_;
 }
 
 void SelfVolumes::addTool(const Parameters& parameters, sweep_guard_core::Time stamp, double padding) {
   const std::vector<sweep_guard_core::Tool>& bodies = *parameters.bodies;
-  const auto around = poses_.around(stamp);
-  if (!around || around->first.size() != bodies.size() || around->second.size() != bodies.size()) return;
+  const auto around = poses_.around(stamp, parameters.limits.pose_timeout);
+  if (!around)
+    throw sweep_guard_core::Error("the tool in the picture is not known: there is no pose of it at the image's stamp");
+  if (around->first.size() != bodies.size() || around->second.size() != bodies.size())
+    throw sweep_guard_core::Error("the tool in the picture is not known: it is being exchanged");
   for (size_t i = 0; i < bodies.size(); ++i) {
     const auto& [X_WB, deviation] = around->second[i];
     add(bodies[i].pieces(), Motion{around->first[i].X_WB, X_WB, deviation}, parameters, padding);
@@ -48,13 +54,21 @@ void SelfVolumes::addTool(const Parameters& parameters, sweep_guard_core::Time s
   }
 }
 
-void SelfVolumes::addLinks(const Parameters& parameters, sweep_guard_core::Time stamp, double padding) {
+void SelfVolumes::addLinks(const Parameters& parameters, sweep_guard_core::Time stamp, double padding,
+                           sweep_guard_core::SteadyTime end) {
   for (const auto& [link, pieces] : *parameters.robot_links) {
-    if (const auto X_WL = frames_.find(parameters.fixed_frame, link, stamp)) {
-      add(pieces, Motion{*X_WL, *X_WL}, parameters, padding);
-    } else {
-      unplaced_.push_back(link);
+    auto X_WL = frames_.find(parameters.fixed_frame, link, stamp);
+    if (!X_WL && known_.count(link) != 0) {
+      const auto left = std::max(sweep_guard_core::Duration::zero(),
+                                 sweep_guard_core::Duration(end - std::chrono::steady_clock::now()));
+      X_WL = frames_.lookup(parameters.fixed_frame, link, stamp, left);
     }
+    if (!X_WL) {
+      unplaced_.push_back(link);
+      continue;
+    }
+    known_.insert(link);
+    add(pieces, Motion{*X_WL, *X_WL}, parameters, padding);
   }
 }
 

@@ -206,11 +206,11 @@ void GuardSteps::sweepAgain() {
   beginSweep(*swept_, workpieces);
   try {
     guard_.sweep(swept_->pose, workpieces, *report, /*arrived=*/false);
+    warn(*report, *swept_);
   } catch (...) {
     guard_.takeBack();
     throw;
   }
-  warn(*report, *swept_);
   reportFailures(report->failures);
   dependencies_.scene.swept(swept_->pose, report);
   top_->run([&] { dependencies_.touches.swept(*report, workpieces); });

@@ -129,7 +129,7 @@ std::future<sweep_guard_core::PoseWithFrames> GuardThread::newestPose() {
 }
 
 void GuardThread::show(const std::shared_ptr<const sweep_guard_core::Workpiece>& image) {
-  dependencies_.queue.submit<void>([this, image] { steps_.show(image); });
+  dependencies_.queue.submit<void>([this, image] { top_->run([&] { steps_.show(image); }); });
 }
 
 std::string GuardThread::acknowledge(const std::string& id) {

@@ -51,6 +51,7 @@ MeshInput::MeshInput(const ros::NodeHandle& node, const Parameters& parameters,
                      sweep_guard_core::WorkpieceStore& workpieces, sweep_guard_core::WarningMonitor& monitor)
     : mesh_ids_(parameters.mesh_ids),
       other_tools_(parameters.other_tools),
+      cameras_(cameraIds(parameters)),
       sheets_(parameters.sheets),
       paddings_(parameters.paddings),
       max_triangles_(parameters.max_triangles),
@@ -141,6 +142,10 @@ bool MeshInput::readable(const std::string& id, const std_msgs::Header& header, 
   const auto is_link = [&](const std::string& tool) { return id.compare(0, tool.size() + 1, tool + "/") == 0; };
   if (std::any_of(other_tools_.begin(), other_tools_.end(), is_link)) {
     unread("id '" + printable(id) + "' is that of a link of another tool (other_tools)", record);
+    return false;
+  }
+  if (cameras_.count(id) != 0) {
+    unread("id '" + printable(id) + "' is that of a camera (cameras)", record);
     return false;
   }
   if (isName(id)) return true;

@@ -84,6 +84,7 @@ class MeshInput {
 
   const std::set<std::string> mesh_ids_;
   const std::vector<std::string> other_tools_;
+  const std::set<std::string> cameras_;  // ids
   const sweep_guard_core::Rules<bool> sheets_;
   const sweep_guard_core::Rules<double> paddings_;
   const size_t max_triangles_;

@@ -292,8 +292,10 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
   parameters.mesh_ids.insert(ids.begin(), ids.end());
   readWorkpieces(read, parameters);
   parameters.cameras = readCameras(read);
-  for (const CameraParameters& camera : parameters.cameras)
-    addRule(camera.id, camera.timeout, parameters.limits.mesh_timeouts);
+  for (const CameraParameters& camera : parameters.cameras) {
+    for (const std::string& id : {camera.id, "/" + camera.id})
+      parameters.limits.mesh_timeouts.by_id.insert_or_assign(id, camera.timeout);
+  }
   if (!parameters.cameras.empty()) readRobotLinks(read, before, parameters);
   parameters.other_tools = read.nodes(
       "other_tools",
@@ -325,9 +327,15 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
 
 }  // namespace
 
-std::set<std::string> requiredIds(const Parameters& parameters) {
-  std::set<std::string> ids = parameters.mesh_ids;
+std::set<std::string> cameraIds(const Parameters& parameters) {
+  std::set<std::string> ids;
   for (const CameraParameters& camera : parameters.cameras) ids.insert(camera.id);
+  return ids;
+}
+
+std::set<std::string> requiredIds(const Parameters& parameters) {
+  std::set<std::string> ids = cameraIds(parameters);
+  ids.insert(parameters.mesh_ids.begin(), parameters.mesh_ids.end());
   return ids;
 }
 

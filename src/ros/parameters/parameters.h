@@ -42,8 +42,9 @@ struct Parameters {
   std::shared_ptr<const RobotModel> robot;  ///< whose links are the tool; null: nothing that joints move
   std::string why_no_robot;                 ///< why it is null
   std::string robot_description;            ///< name of the parameter that holds the URDF
+  int mesh_depth;                           ///< see ToolModelOptions
   std::vector<std::string> mesh_roots;      ///< see locateMesh()
-  /// Pieces of all links of the robot description, by the link that is their frame, in which cameras may see them; null: none.
+  /// Pieces of the links of the robot description that joints move, by the link that is their frame: cameras may see them. Null: none.
   std::shared_ptr<const std::map<std::string, std::vector<sweep_guard_core::ConvexPiece>>> robot_links;
   std::string why_no_links;            ///< why it is null
   double tool_padding;                 ///< [m]
@@ -75,6 +76,9 @@ struct Parameters {
   ParameterReader::Settings settings;    ///< as read
   std::vector<ParameterInfo> described;  ///< always the same keys in the same order
 };
+
+/// Returns the ids of the cameras.
+std::set<std::string> cameraIds(const Parameters& parameters);
 
 /// Returns the workpieces that must be there: `mesh_ids` and the cameras.
 std::set<std::string> requiredIds(const Parameters& parameters);

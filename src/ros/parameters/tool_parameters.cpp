@@ -162,6 +162,7 @@ void readTool(ParameterReader& read, const Parameters* before, Parameters& param
   ToolModelOptions options = readModelOptions(read, parameters.tool_frame, padding);
   options.of_root = parameters.tool_source == ToolSource::kJointStates;
   parameters.robot_description = description;
+  parameters.mesh_depth = options.mesh_depth;
   parameters.mesh_roots = options.mesh_roots;
   const bool joint_states = read.flag(
       "tool/joint_states", false,
@@ -205,7 +206,6 @@ void readTool(ParameterReader& read, const Parameters* before, Parameters& param
                           : std::make_shared<const Bodies>(Bodies{*parameters.tool});
 }
 
-// One hull for each mesh: what is in its hollows is hidden with it.
 void readRobotLinks(ParameterReader& read, const Parameters* before, Parameters& parameters) {
   if (before != nullptr) {
     parameters.robot_links = before->robot_links;
@@ -214,7 +214,7 @@ void readRobotLinks(ParameterReader& read, const Parameters* before, Parameters&
   }
   ToolModelOptions options;
   options.geometry = LinkGeometry::kEither;
-  options.mesh_depth = 0;
+  options.mesh_depth = parameters.mesh_depth;
   options.mesh_roots = parameters.mesh_roots;
   const std::string urdf = read.searchText(parameters.robot_description);
   parameters.why_no_links = "there is no parameter '" + parameters.robot_description + "'";

@@ -99,7 +99,8 @@ std::shared_ptr<const Workpiece> AttachService::workpieceOf(const std::string& i
   const auto found = std::find_if(workpieces.begin(), workpieces.end(), same);
   if (found == workpieces.end()) throw InvalidInput("there is no workpiece '" + id + "'");
   if ((*found)->of_other_tool) throw InvalidInput("'" + id + "' is a link of another tool");
-  if ((*found)->of_camera) throw InvalidInput("'" + id + "' is what a camera sees: attach the mesh of what the tool holds");
+  if ((*found)->of_camera)
+    throw InvalidInput("'" + id + "' is what a camera sees: attach the mesh of what the tool holds");
   return *found;
 }
 

@@ -194,6 +194,14 @@ void requireGeometry(const RobotDescription& robot, const urdf::Link& link) {
                      ">, or list only links with one in tool/links");
 }
 
+// Returns whether a joint moves the link relative to the root.
+bool isMoved(const urdf::Link& link) {
+  for (const urdf::Link* at = &link; at->parent_joint; at = at->getParent().get()) {
+    if (at->parent_joint->type != urdf::Joint::FIXED) return true;
+  }
+  return false;
+}
+
 using Pieces = std::vector<ConvexPiece>;
 
 Pieces placed(const Eigen::Isometry3d& X, Pieces::const_iterator first, Pieces::const_iterator last) {
@@ -243,7 +251,7 @@ std::map<std::string, Pieces> loadLinks(const std::string& urdf, const ToolModel
   const RobotDescription robot(urdf, options.geometry);
   std::map<std::string, Pieces> links;
   for (const urdf::Link* link : RobotDescription::subtree(robot.root())) {
-    if (robot.hasNoShape(*link)) continue;
+    if (robot.hasNoShape(*link) || !isMoved(*link)) continue;
     ToolModel model;
     model.frame = link->name;
     withLinkInErrors(*link, [&] { addPieces(robot, *link, Eigen::Isometry3d::Identity(), options, model); });

@@ -60,7 +60,7 @@ struct ToolModel {
 ///     several in one element; or if a piece is degenerate or reaches farther than 100 m
 ToolModel loadToolModel(const std::string& urdf, const ToolModelOptions& options);
 
-/// Makes convex pieces of all links that have a shape, each link in its own frame, by its name.
+/// Makes convex pieces of all links that joints move and that have a shape, each link in its own frame, by its name.
 /// @param options  only `geometry`, `mesh_roots`, `mesh_depth` and `padding` count
 /// @throws sweep_guard_core::InvalidInput as loadToolModel()
 std::map<std::string, std::vector<sweep_guard_core::ConvexPiece>> loadLinks(const std::string& urdf,
