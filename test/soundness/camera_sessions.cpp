@@ -119,8 +119,8 @@ Vector3r randomWeights(Random& random) {
   return {u, v, 1 - u - v};
 }
 
-// Returns whether some point of a triangle is found that is deep in the tool: corners, points at random and those nearest to points
-// ever farther from the middle of a piece.
+// Returns whether some point of a triangle is found that is deep in the tool: corners, points at random and those
+// nearest to points ever farther from the middle of a piece.
 bool touches(Random& random, const std::vector<Piece>& tool, const RealCorners& corners_T) {
   const Vector3r center = (corners_T[0] + corners_T[1] + corners_T[2]) / 3;
   const Real size = sizeOf(corners_T, center);

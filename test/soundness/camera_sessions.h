@@ -17,13 +17,13 @@ struct CameraFindings {
   std::map<int, std::uint64_t> false_contacts;  ///< of these, those that report contact
 };
 
-/// Shows the images to a guard as a camera does, while a random tool moves to one of the surfaces, and compares what it reports with
-/// the surfaces, the exact motion of the tool and closed formulas of its shape. Nothing of it is taken from the guard.
+/// Shows the images to a guard as a camera does, while a random tool moves to one of the surfaces, and compares what it
+/// reports with the surfaces, the exact motion of the tool and closed formulas of its shape.
 /// @param looseness  find the sweeps that are clear, which takes half of the time
 CameraFindings checkCameraSession(Random& random, const SeenSurfaces& surfaces, bool looseness);
 
-/// Adds the findings: a row for the misses, and one for each distance, with the sweeps that are clear as positives, and those of
-/// them that report contact as extras.
+/// Adds the findings: a row for the misses, and one for each distance, with the sweeps that are clear as positives, and
+/// those of them that report contact as extras.
 void add(const CameraFindings& findings, const std::string& family, const std::string& about, Report& report);
 
 /// Three sessions with the same rendered images.

@@ -25,8 +25,8 @@ struct DepthImages {
   std::vector<Image> images;
 };
 
-/// Renders two to four images of planes, spheres and boxes that rest, come nearer, pass by, appear or leave, by rays in long double;
-/// with noise, steps and pixels that see nothing. One camera in four moves.
+/// Renders two to four images of planes, spheres and boxes that rest, come nearer, pass by, appear or leave, by rays in
+/// long double; with noise, steps and pixels that see nothing. One camera in four moves.
 DepthImages renderedImages(Random& random);
 
 }  // namespace sweep_guard_core::soundness

@@ -1,8 +1,8 @@
-#!/usr/bin/python3
+#!/usr/bin/env python3
 """Writes the depth images of a folder for check_depth_images.
 
-FOLDER has images as 16-bit PNG and intrinsics.yaml, here or in the folder above. Where NAME.pose.txt is beside NAME.depth.png, it is
-the pose of the camera (3 or 4 rows of 4 numbers); else, and with --still, the camera rests.
+FOLDER has images as 16-bit PNG and intrinsics.yaml, here or in the folder above. Where NAME.pose.txt is beside
+NAME.depth.png, it is the pose of the camera (3 or 4 rows of 4 numbers); else, and with --still, the camera rests.
 """
 import argparse
 import pathlib

@@ -45,8 +45,8 @@ SeenSurfaces::SeenSurfaces(const DepthImages& images) : images_(images) {
         const bool counts =
             z >= static_cast<Real>(images.options.nearest) && z <= static_cast<Real>(images.options.farthest);
         const Real from_camera = std::max<Real>(0, z * ray.norm() - margin(images, z));
-        // A step is what would be a surface that one sees at less than 6 degrees, as steep as 10 to 1: the depth changes by more than
-        // ten times the diagonal of a pixel, and by more than what both may be off.
+        // A step is what would be a surface that one sees at less than 6 degrees, as steep as 10 to 1: the depth
+        // changes by more than ten times the diagonal of a pixel, and by more than what both may be off.
         seen.limits.push_back(10 * diagonal * z + 2 * margin(images, z));
         seen.lengths.push_back(ray.norm());
         seen.depths.push_back(counts ? z : std::numeric_limits<Real>::quiet_NaN());

@@ -20,8 +20,8 @@ struct SeenTriangle {
   std::array<Vector3r, 3> at(const std::array<Real, 3>& shares) const;
 };
 
-/// States in long double which surfaces a camera sees, and how they move from image to image. Where rounding may decide whether a
-/// pixel, a triangle or a way is there, there are two statements: what must be, and what may be.
+/// States in long double which surfaces a camera sees, and how they move from image to image. Where rounding may decide
+/// whether a pixel, a triangle or a way is there, there are two statements: what must be, and what may be.
 class SeenSurfaces {
  public:
   enum class Says { kMust, kMay };
