@@ -6,6 +6,7 @@ namespace sweep_guard_core {
 namespace {
 
 constexpr Duration kRecent = std::chrono::seconds(1);
+constexpr size_t kMostPoses = 4096;
 
 }  // namespace
 
@@ -14,7 +15,8 @@ void RecentPoses::add(Time stamp, const BodyPoses& bodies) {
     const Lock lock(mutex_);
     if (!poses_.empty() && stamp < poses_.back().first) poses_.clear();
     while (!poses_.empty() && poses_.front().first + kRecent < stamp) poses_.pop_front();
-    poses_.emplace_back(stamp, bodies);
+    if (poses_.full() && poses_.capacity() < kMostPoses) poses_.set_capacity(2 * poses_.capacity());
+    poses_.push_back({stamp, bodies});
   }
   added_.notify_all();
 }

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <boost/circular_buffer.hpp>
 #include <condition_variable>
-#include <deque>
 #include <optional>
 #include <utility>
 
@@ -10,7 +10,7 @@
 
 namespace sweep_guard_core {
 
-/// Where the bodies of the tool were in the last second, in the fixed frame. Any thread.
+/// Where the bodies of the tool were in the last second, at the newest 4096 poses, in the fixed frame. Any thread.
 class RecentPoses {
  public:
   /// Adds a pose. One whose stamp is older than the newest begins anew: time has gone back.
@@ -24,7 +24,9 @@ class RecentPoses {
  private:
   mutable Mutex mutex_;
   mutable std::condition_variable_any added_;
-  std::deque<std::pair<Time, BodyPoses>> poses_ GUARDED_BY(mutex_);  // the oldest first
+  // The oldest first.
+  boost::circular_buffer<std::pair<Time, BodyPoses>> poses_ GUARDED_BY(mutex_) =
+      boost::circular_buffer<std::pair<Time, BodyPoses>>(128);
 };
 
 }  // namespace sweep_guard_core
