@@ -250,7 +250,7 @@ void DepthSurface::endMotions(float reach, size_t pixel, size_t place) {
 }
 
 DepthSurface::Expected DepthSurface::compare(const std::vector<float>& depths,
-                                             const std::vector<Eigen::Vector3d>& points_F) const {
+                                             const std::vector<Eigen::Vector3d>& points_F, double distance) const {
   const Eigen::Isometry3d X_CF = X_FC_.inverse();
   Expected expected;
   for (const Eigen::Vector3d& p_F : points_F) {
@@ -261,14 +261,30 @@ DepthSurface::Expected DepthSurface::compare(const std::vector<float>& depths,
     if (!(u >= 0.0 && u < grid_.width() && v >= 0.0 && v < grid_.height())) continue;
     const auto column = static_cast<std::uint32_t>(u);
     const auto row = static_cast<std::uint32_t>(v);
-    const std::uint32_t place = grid_.place(column, row);
-    const bool found = (hidden_[place / Grid::kTilePixels] >> place % Grid::kTilePixels & 1U) != 0;
+    const bool found = showsSelf(depths, column, row, std::ceil(camera_.fx * distance / p_C.z()));
     const float depth = depths[size_t{row} * grid_.width() + column];
     if (std::isnan(depth) || (!found && depth <= p_C.z())) continue;
     ++expected.points;
     expected.found += found ? 1 : 0;
   }
   return expected;
+}
+
+// At a pixel, or at most as far from it along row and column.
+bool DepthSurface::showsSelf(const std::vector<float>& depths, std::uint32_t column, std::uint32_t row,
+                             double pixels) const {
+  const auto from = [pixels](std::uint32_t at) { return static_cast<std::uint32_t>(std::max(0.0, at - pixels)); };
+  const auto to = [pixels](std::uint32_t at, std::uint32_t end) {
+    return static_cast<std::uint32_t>(std::min(end - 1.0, at + pixels));
+  };
+  for (std::uint32_t v = from(row); v <= to(row, grid_.height()); ++v) {
+    for (std::uint32_t u = from(column); u <= to(column, grid_.width()); ++u) {
+      const std::uint32_t place = grid_.place(u, v);
+      const bool is_hidden = (hidden_[place / Grid::kTilePixels] >> place % Grid::kTilePixels & 1U) != 0;
+      if (is_hidden && depths[size_t{v} * grid_.width() + u] <= static_cast<float>(options_.farthest)) return true;
+    }
+  }
+  return false;
 }
 
 void DepthSurface::placeVertices(const Eigen::Isometry3d& X_FC, std::vector<float>& places_F) const {

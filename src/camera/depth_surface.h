@@ -65,10 +65,12 @@ class DepthSurface {
     size_t points = 0;
     size_t found = 0;
   };
-  /// Counts the points in the picture that nothing stands before. One is found if its pixel shows the robot.
+  /// Counts the points in the picture that nothing stands before. One is found if a pixel near to its own shows the robot.
   /// @param depths    of the newest image
   /// @param points_F  within bodies of the robot that were there [m]
-  Expected compare(const std::vector<float>& depths, const std::vector<Eigen::Vector3d>& points_F) const;
+  /// @param distance  how near [m], >= 0: that by which the bodies were grown
+  Expected compare(const std::vector<float>& depths, const std::vector<Eigen::Vector3d>& points_F,
+                   double distance) const;
 
  private:
   static constexpr size_t kColumns = Grid::kTileColumns;
@@ -89,6 +91,7 @@ class DepthSurface {
   PixelBounds boundsOf(const SweptVolume& body_F) const;
   size_t pixelOf(size_t tile, std::uint32_t i) const;
   void hide(size_t tile);
+  bool showsSelf(const std::vector<float>& depths, std::uint32_t column, std::uint32_t row, double pixels) const;
   void findMotion(double reach);
   void endMotions(float reach, size_t pixel, size_t place);
   void placeVertices(const Eigen::Isometry3d& X_FC, std::vector<float>& places_F) const;
