@@ -120,7 +120,8 @@ void DepthSurface::readRow(const std::vector<float>& depths, size_t row) {
   }
 }
 
-// Pixels that the robot hides become what they showed before.
+// Pixels that the robot hides become what they showed before. What only one image shows may be a fault of it, as a pixel between an
+// edge and what is behind: it is not remembered in place of something else.
 void DepthSurface::hideSelf(const std::vector<SweptVolume>& bodies_F) {
   bodies_F_.clear();
   for (const SweptVolume& body_F : bodies_F) {
@@ -136,9 +137,11 @@ void DepthSurface::hideSelf(const std::vector<SweptVolume>& bodies_F) {
   }
   size_t seen = 0;
   for (size_t pixel = 0; pixel < depths_.size(); ++pixel) {
-    const bool is_seen = !std::isnan(depths_[pixel]);
-    remembered_[pixel] = is_seen ? depths_[pixel] : remembered_[pixel];
-    seen += is_seen ? 1 : 0;
+    const float depth = depths_[pixel];
+    const bool stays = std::abs(nearer_[pixel] - nearer_before_[pixel]) <= twiceMargin(pixel);
+    const bool is_kept = stays || std::isnan(remembered_[pixel]);
+    remembered_[pixel] = is_kept ? depth : remembered_[pixel];
+    seen += std::isnan(depth) ? 0U : 1U;
   }
   seen_ = seen;
 }

@@ -80,6 +80,7 @@ class DepthSurface {
   void forget();
   void readRow(const std::vector<float>& depths, size_t row);
   void setDepth(size_t pixel, float depth);
+  float twiceMargin(size_t pixel) const { return steps_[pixel] - slope_ * depths_[pixel]; }
   void hideSelf(const std::vector<SweptVolume>& bodies_F);
   void findShown();
   struct PixelBounds {

@@ -314,6 +314,22 @@ TEST_F(DepthMotionTest, TheMarginTakesTheRobotNotOutOfItsVolume) {
   EXPECT_GT(surface.self(), 50U);
 }
 
+// A camera's fault lasts for one image, and what came for more.
+TEST_F(DepthMotionTest, WhatOnlyOneImageShowsIsNotRemembered) {
+  std::vector<float> speck = wall(1.0F);
+  at(speck, 26, 18) = 0.9F;
+  std::vector<float> robot = wall(1.0F);
+  at(robot, 26, 18) = 0.5F;
+  take(wall(1.0F), 0.0);
+  take(speck, 0.0);
+  take(robot, 0.0, {boxAt(0.5)});
+  EXPECT_TRUE(now(26, 18).isApprox(onRay(26, 18, 1.0), 1e-6));
+  take(speck, 0.0);
+  take(speck, 0.0);
+  take(robot, 0.0, {boxAt(0.5)});
+  EXPECT_TRUE(now(26, 18).isApprox(onRay(26, 18, 0.9), 1e-6));
+}
+
 TEST_F(DepthMotionTest, WhatStandsBesideTheRobotIsASurface) {
   take(wall(1.0F), 0.0);
   take(wall(0.5F), 0.0, {boxAt(0.6)});
