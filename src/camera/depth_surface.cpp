@@ -56,6 +56,7 @@ DepthSurface::DepthSurface(const Grid& grid, const Pinhole& camera, const DepthO
       nearer_(depths_),
       pairs_(stride_ * kRows),
       remembered_(depths_),
+      farthest_(depths_),
       nearer_before_(depths_),
       places_before_F_(3 * grid.places(), 0.0F),
       places_F_(places_before_F_),
@@ -98,6 +99,7 @@ void DepthSurface::findRest(const Eigen::Isometry3d& X_FC) {
 // Where the camera goes, its pixels show something else.
 void DepthSurface::forget() {
   std::fill(remembered_.begin(), remembered_.end(), kNothing);
+  std::fill(farthest_.begin(), farthest_.end(), kNothing);
   std::fill(nearer_before_.begin(), nearer_before_.end(), kNothing);
 }
 
@@ -141,6 +143,7 @@ void DepthSurface::hideSelf(const std::vector<SweptVolume>& bodies_F) {
     const bool stays = std::abs(nearer_[pixel] - nearer_before_[pixel]) <= twiceMargin(pixel);
     const bool is_kept = stays || std::isnan(remembered_[pixel]);
     remembered_[pixel] = is_kept ? depth : remembered_[pixel];
+    farthest_[pixel] = is_kept && !(farthest_[pixel] >= depth) ? depth : farthest_[pixel];
     seen += std::isnan(depth) ? 0U : 1U;
   }
   seen_ = seen;
@@ -203,7 +206,9 @@ DepthSurface::PixelBounds DepthSurface::boundsOf(const SweptVolume& body_F) cons
 void DepthSurface::hide(size_t tile) {
   for (std::uint32_t left = hidden_[tile]; left != 0; left &= left - 1, ++hidden_count_) {
     const size_t pixel = pixelOf(tile, static_cast<std::uint32_t>(__builtin_ctz(left)));
-    setDepth(pixel, remembered_[pixel]);
+    const float free_to = depths_[pixel] - twiceMargin(pixel);  // the robot is seen there
+    if (remembered_[pixel] < free_to) remembered_[pixel] = farthest_[pixel];
+    setDepth(pixel, remembered_[pixel] < free_to ? kNothing : remembered_[pixel]);
   }
   const size_t row = tile / grid_.tileColumns() * kRows;
   const size_t column = tile % grid_.tileColumns() * kColumns;

@@ -117,6 +117,7 @@ class DepthSurface {
   std::vector<float> nearer_;        // depth less the margin [m]; NaN: not seen
   std::vector<std::uint8_t> pairs_;  // of triangles of each pixel in a row of tiles: bits 0 and 1 are set if they exist
   std::vector<float> remembered_;    // depth where a pixel last showed something else than the robot; NaN: never
+  std::vector<float> farthest_;      // that was remembered; NaN: none
   std::vector<float> nearer_before_;  // of the image before; NaN: not seen, or nothing is known of it
   std::vector<float> places_before_F_;
   std::vector<float> places_F_;

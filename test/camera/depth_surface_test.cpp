@@ -330,6 +330,24 @@ TEST_F(DepthMotionTest, WhatOnlyOneImageShowsIsNotRemembered) {
   EXPECT_TRUE(now(26, 18).isApprox(onRay(26, 18, 0.9), 1e-6));
 }
 
+TEST_F(DepthMotionTest, WhatStoodBeforeTheRobotHasGoneWhereTheRobotIsSeen) {
+  std::vector<float> robot = wall(1.0F);
+  at(robot, 26, 18) = 0.7F;
+  take(wall(1.0F), 0.0);
+  take(wall(0.5F), 0.0);
+  take(wall(0.5F), 0.0);
+  take(robot, 0.0, {boxAt(0.7)});
+  EXPECT_TRUE(now(26, 18).isApprox(onRay(26, 18, 1.0), 1e-6));
+}
+
+TEST_F(DepthMotionTest, WhereNothingIsKnownBehindTheRobotWhatStoodBeforeItLeavesNoSurface) {
+  std::vector<float> robot = wall(1.0F);
+  at(robot, 26, 18) = 0.7F;
+  take(wall(0.5F), 0.0);
+  take(robot, 0.0, {boxAt(0.7)});
+  EXPECT_EQ(surface_.seen(), size_t{kWidth} * kHeight - 1);
+}
+
 TEST_F(DepthMotionTest, WhatStandsBesideTheRobotIsASurface) {
   take(wall(1.0F), 0.0);
   take(wall(0.5F), 0.0, {boxAt(0.6)});
