@@ -43,7 +43,7 @@ class World {
         frames_(node_, kMaxSize,
                 [this](const auto&, const auto&) { monitor_.placedAnew("a static transform changed"); }),
         live_(guardParameters()),
-        poses_(node_, live_, {frames_, store_, monitor_, queue_, frame_motions_}),
+        poses_(node_, live_, {frames_, store_, monitor_, queue_, frame_motions_, recent_poses_}),
         other_tools_(node_, guardParameters(), {[](const auto& job) { job.run(); }, store_, frame_motions_, monitor_}),
         guard_(node_, motionParameters().guard, motionParameters().tool),
         motion_guard_(motionParameters().options) {}
@@ -224,6 +224,7 @@ class World {
   sweep_guard_core::WorkQueue queue_;
   sweep_guard_ros::Frames frames_;
   sweep_guard_core::FrameMotionStore frame_motions_;
+  sweep_guard_core::RecentPoses recent_poses_;
   sweep_guard_ros::LiveParameters live_;
   sweep_guard_ros::PoseInput poses_;
   sweep_guard_ros::OtherTools other_tools_;

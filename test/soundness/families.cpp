@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "soundness/camera_sessions.h"
 #include "soundness/enclosed.h"
 #include "soundness/joint_positives.h"
 #include "soundness/late.h"
@@ -96,6 +97,7 @@ const std::vector<Family>& families() {
       {"inside", "points inside and outside of solids, however their surfaces are sent", checkEnclosed, refuseReplay},
       {"late", "sessions whose transforms come late, seldom and changed, against known contacts", checkLate,
        refuseReplay},
+      {"cameras", "images of a depth camera, in a guard whose tool moves, against rays", checkCamera, refuseReplay},
       {"sweeps", "a tool about a workpiece of 1 600 triangles, against densely sampled exact poses", runWholeSweep,
        replayWholeSweep},
   };
