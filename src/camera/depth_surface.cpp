@@ -56,6 +56,7 @@ DepthSurface::DepthSurface(const Grid& grid, const Pinhole& camera, const DepthO
       nearer_(depths_),
       pairs_(stride_ * kRows),
       remembered_(depths_),
+      farthest_(depths_),
       nearer_before_(depths_),
       places_before_F_(3 * grid.places(), 0.0F),
       places_F_(places_before_F_),
@@ -98,6 +99,7 @@ void DepthSurface::findRest(const Eigen::Isometry3d& X_FC) {
 // Where the camera goes, its pixels show something else.
 void DepthSurface::forget() {
   std::fill(remembered_.begin(), remembered_.end(), kNothing);
+  std::fill(farthest_.begin(), farthest_.end(), kNothing);
   std::fill(nearer_before_.begin(), nearer_before_.end(), kNothing);
 }
 
@@ -120,7 +122,8 @@ void DepthSurface::readRow(const std::vector<float>& depths, size_t row) {
   }
 }
 
-// Pixels that the robot hides become what they showed before.
+// Pixels that the robot hides become what they showed before. What only one image shows may be a fault of it, as a pixel between an
+// edge and what is behind: it is not remembered in place of something else.
 void DepthSurface::hideSelf(const std::vector<SweptVolume>& bodies_F) {
   bodies_F_.clear();
   for (const SweptVolume& body_F : bodies_F) {
@@ -136,9 +139,12 @@ void DepthSurface::hideSelf(const std::vector<SweptVolume>& bodies_F) {
   }
   size_t seen = 0;
   for (size_t pixel = 0; pixel < depths_.size(); ++pixel) {
-    const bool is_seen = !std::isnan(depths_[pixel]);
-    remembered_[pixel] = is_seen ? depths_[pixel] : remembered_[pixel];
-    seen += is_seen ? 1 : 0;
+    const float depth = depths_[pixel];
+    const bool stays = std::abs(nearer_[pixel] - nearer_before_[pixel]) <= twiceMargin(pixel);
+    const bool is_kept = stays || std::isnan(remembered_[pixel]);
+    remembered_[pixel] = is_kept ? depth : remembered_[pixel];
+    farthest_[pixel] = is_kept && !(farthest_[pixel] >= depth) ? depth : farthest_[pixel];
+    seen += std::isnan(depth) ? 0U : 1U;
   }
   seen_ = seen;
 }
@@ -200,7 +206,9 @@ DepthSurface::PixelBounds DepthSurface::boundsOf(const SweptVolume& body_F) cons
 void DepthSurface::hide(size_t tile) {
   for (std::uint32_t left = hidden_[tile]; left != 0; left &= left - 1, ++hidden_count_) {
     const size_t pixel = pixelOf(tile, static_cast<std::uint32_t>(__builtin_ctz(left)));
-    setDepth(pixel, remembered_[pixel]);
+    const float free_to = depths_[pixel] - twiceMargin(pixel);  // the robot is seen there
+    if (remembered_[pixel] < free_to) remembered_[pixel] = farthest_[pixel];
+    setDepth(pixel, remembered_[pixel] < free_to ? kNothing : remembered_[pixel]);
   }
   const size_t row = tile / grid_.tileColumns() * kRows;
   const size_t column = tile % grid_.tileColumns() * kColumns;
@@ -250,7 +258,7 @@ void DepthSurface::endMotions(float reach, size_t pixel, size_t place) {
 }
 
 DepthSurface::Expected DepthSurface::compare(const std::vector<float>& depths,
-                                             const std::vector<Eigen::Vector3d>& points_F) const {
+                                             const std::vector<Eigen::Vector3d>& points_F, double distance) const {
   const Eigen::Isometry3d X_CF = X_FC_.inverse();
   Expected expected;
   for (const Eigen::Vector3d& p_F : points_F) {
@@ -261,14 +269,30 @@ DepthSurface::Expected DepthSurface::compare(const std::vector<float>& depths,
     if (!(u >= 0.0 && u < grid_.width() && v >= 0.0 && v < grid_.height())) continue;
     const auto column = static_cast<std::uint32_t>(u);
     const auto row = static_cast<std::uint32_t>(v);
-    const std::uint32_t place = grid_.place(column, row);
-    const bool found = (hidden_[place / Grid::kTilePixels] >> place % Grid::kTilePixels & 1U) != 0;
+    const bool found = showsSelf(depths, column, row, std::ceil(camera_.fx * distance / p_C.z()));
     const float depth = depths[size_t{row} * grid_.width() + column];
     if (std::isnan(depth) || (!found && depth <= p_C.z())) continue;
     ++expected.points;
     expected.found += found ? 1 : 0;
   }
   return expected;
+}
+
+// At a pixel, or at most as far from it along row and column.
+bool DepthSurface::showsSelf(const std::vector<float>& depths, std::uint32_t column, std::uint32_t row,
+                             double pixels) const {
+  const auto from = [pixels](std::uint32_t at) { return static_cast<std::uint32_t>(std::max(0.0, at - pixels)); };
+  const auto to = [pixels](std::uint32_t at, std::uint32_t end) {
+    return static_cast<std::uint32_t>(std::min(end - 1.0, at + pixels));
+  };
+  for (std::uint32_t v = from(row); v <= to(row, grid_.height()); ++v) {
+    for (std::uint32_t u = from(column); u <= to(column, grid_.width()); ++u) {
+      const std::uint32_t place = grid_.place(u, v);
+      const bool is_hidden = (hidden_[place / Grid::kTilePixels] >> place % Grid::kTilePixels & 1U) != 0;
+      if (is_hidden && depths[size_t{v} * grid_.width() + u] <= static_cast<float>(options_.farthest)) return true;
+    }
+  }
+  return false;
 }
 
 void DepthSurface::placeVertices(const Eigen::Isometry3d& X_FC, std::vector<float>& places_F) const {

@@ -65,10 +65,12 @@ class DepthSurface {
     size_t points = 0;
     size_t found = 0;
   };
-  /// Counts the points in the picture that nothing stands before. One is found if its pixel shows the robot.
+  /// Counts the points in the picture that nothing stands before. One is found if a pixel near to its own shows the robot.
   /// @param depths    of the newest image
   /// @param points_F  within bodies of the robot that were there [m]
-  Expected compare(const std::vector<float>& depths, const std::vector<Eigen::Vector3d>& points_F) const;
+  /// @param distance  how near [m], >= 0: that by which the bodies were grown
+  Expected compare(const std::vector<float>& depths, const std::vector<Eigen::Vector3d>& points_F,
+                   double distance) const;
 
  private:
   static constexpr size_t kColumns = Grid::kTileColumns;
@@ -78,6 +80,7 @@ class DepthSurface {
   void forget();
   void readRow(const std::vector<float>& depths, size_t row);
   void setDepth(size_t pixel, float depth);
+  float twiceMargin(size_t pixel) const { return steps_[pixel] - slope_ * depths_[pixel]; }
   void hideSelf(const std::vector<SweptVolume>& bodies_F);
   void findShown();
   struct PixelBounds {
@@ -89,6 +92,7 @@ class DepthSurface {
   PixelBounds boundsOf(const SweptVolume& body_F) const;
   size_t pixelOf(size_t tile, std::uint32_t i) const;
   void hide(size_t tile);
+  bool showsSelf(const std::vector<float>& depths, std::uint32_t column, std::uint32_t row, double pixels) const;
   void findMotion(double reach);
   void endMotions(float reach, size_t pixel, size_t place);
   void placeVertices(const Eigen::Isometry3d& X_FC, std::vector<float>& places_F) const;
@@ -113,6 +117,7 @@ class DepthSurface {
   std::vector<float> nearer_;        // depth less the margin [m]; NaN: not seen
   std::vector<std::uint8_t> pairs_;  // of triangles of each pixel in a row of tiles: bits 0 and 1 are set if they exist
   std::vector<float> remembered_;    // depth where a pixel last showed something else than the robot; NaN: never
+  std::vector<float> farthest_;      // that was remembered; NaN: none
   std::vector<float> nearer_before_;  // of the image before; NaN: not seen, or nothing is known of it
   std::vector<float> places_before_F_;
   std::vector<float> places_F_;

@@ -314,6 +314,40 @@ TEST_F(DepthMotionTest, TheMarginTakesTheRobotNotOutOfItsVolume) {
   EXPECT_GT(surface.self(), 50U);
 }
 
+// A camera's fault lasts for one image, and what came for more.
+TEST_F(DepthMotionTest, WhatOnlyOneImageShowsIsNotRemembered) {
+  std::vector<float> speck = wall(1.0F);
+  at(speck, 26, 18) = 0.9F;
+  std::vector<float> robot = wall(1.0F);
+  at(robot, 26, 18) = 0.5F;
+  take(wall(1.0F), 0.0);
+  take(speck, 0.0);
+  take(robot, 0.0, {boxAt(0.5)});
+  EXPECT_TRUE(now(26, 18).isApprox(onRay(26, 18, 1.0), 1e-6));
+  take(speck, 0.0);
+  take(speck, 0.0);
+  take(robot, 0.0, {boxAt(0.5)});
+  EXPECT_TRUE(now(26, 18).isApprox(onRay(26, 18, 0.9), 1e-6));
+}
+
+TEST_F(DepthMotionTest, WhatStoodBeforeTheRobotHasGoneWhereTheRobotIsSeen) {
+  std::vector<float> robot = wall(1.0F);
+  at(robot, 26, 18) = 0.7F;
+  take(wall(1.0F), 0.0);
+  take(wall(0.5F), 0.0);
+  take(wall(0.5F), 0.0);
+  take(robot, 0.0, {boxAt(0.7)});
+  EXPECT_TRUE(now(26, 18).isApprox(onRay(26, 18, 1.0), 1e-6));
+}
+
+TEST_F(DepthMotionTest, WhereNothingIsKnownBehindTheRobotWhatStoodBeforeItLeavesNoSurface) {
+  std::vector<float> robot = wall(1.0F);
+  at(robot, 26, 18) = 0.7F;
+  take(wall(0.5F), 0.0);
+  take(robot, 0.0, {boxAt(0.7)});
+  EXPECT_EQ(surface_.seen(), size_t{kWidth} * kHeight - 1);
+}
+
 TEST_F(DepthMotionTest, WhatStandsBesideTheRobotIsASurface) {
   take(wall(1.0F), 0.0);
   take(wall(0.5F), 0.0, {boxAt(0.6)});
@@ -328,7 +362,7 @@ TEST_F(DepthMotionTest, ThePointsOfTheRobotAreFoundWhereThePictureShowsIt) {
   const std::vector<SweptVolume> robot = {boxAt(0.5)};
   const auto compared = [&](const std::vector<float>& depths) {
     take(depths, 0.0, robot);
-    const auto [all, found] = surface_.compare(depths, points);
+    const auto [all, found] = surface_.compare(depths, points, 0.0);
     return std::pair(all, found);
   };
   EXPECT_EQ(compared(wall(0.5F)), std::pair(size_t{3}, size_t{3}));
@@ -337,6 +371,16 @@ TEST_F(DepthMotionTest, ThePointsOfTheRobotAreFoundWhereThePictureShowsIt) {
   EXPECT_EQ(compared(wall(kNone)), std::pair(size_t{0}, size_t{0}));
   points = {{5.0, 0.0, 0.5}, {0.0, 0.0, -0.5}};
   EXPECT_EQ(compared(wall(1.0F)), std::pair(size_t{0}, size_t{0})) << "beside the picture, and behind the camera";
+}
+
+// The wall is seen where the point is expected, and the robot two pixels beside.
+TEST_F(DepthMotionTest, APointIsFoundIfTheRobotIsSeenAsNearAsTheBodiesWereGrown) {
+  std::vector<float> robot = wall(1.0F);
+  at(robot, 28, 18) = 0.5F;
+  take(robot, 0.0, {boxAt(0.5)});
+  const std::vector<Eigen::Vector3d> points = {onRay(26, 18, 0.5)};
+  EXPECT_EQ(surface_.compare(robot, points, 0.0).found, 0U);
+  EXPECT_EQ(surface_.compare(robot, points, 0.02).found, 1U);
 }
 
 TEST_F(DepthSurfaceTest, AnImageAllocatesNothing) {

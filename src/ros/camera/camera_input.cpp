@@ -100,7 +100,7 @@ void CameraInput::keepShares(SteadyTime received) {
                 std::nullopt,
                 surface_->rests(),
                 false};
-  const auto [points, found] = surface_->compare(depths_, self_.toolPoints());
+  const auto [points, found] = surface_->compare(depths_, self_.toolPoints(), camera_.self_padding);
   if (points >= kLeastPoints) shares.tool_found = share(found, points);
   if (!shares.tool_found || *shares.tool_found >= kLeastFound) misplaced_since_.reset();
   if (shares.tool_found && *shares.tool_found < kLeastFound && !misplaced_since_) misplaced_since_ = received;
