@@ -118,12 +118,12 @@ void DepthSurface::readRow(const std::vector<float>& depths, size_t row) {
     depths_[to + i] = depth;
     steps_[to + i] = slope * depth + 2.0F * error;
     nearer_[to + i] = std::max(depth - error * inverse_[to + i], 0.0F);
-    remembered_[to + i] = depths[from + i] > farthest ? kNothing : remembered_[to + i];
   }
+  for (size_t i = 0; i < grid_.width(); ++i)
+    remembered_[to + i] = depths[from + i] > farthest ? kNothing : remembered_[to + i];
 }
 
-// Pixels that the robot hides become what they showed before. What only one image shows may be a fault of it, as a pixel between an
-// edge and what is behind: it is not remembered in place of something else.
+// Pixels that the robot hides become what they showed before.
 void DepthSurface::hideSelf(const std::vector<SweptVolume>& bodies_F) {
   bodies_F_.clear();
   for (const SweptVolume& body_F : bodies_F) {
@@ -137,14 +137,24 @@ void DepthSurface::hideSelf(const std::vector<SweptVolume>& bodies_F) {
   for (size_t tile = 0; tile < hidden_.size(); ++tile) {
     if (hidden_[tile] != 0) hide(tile);
   }
-  size_t seen = 0;
-  for (size_t pixel = 0; pixel < depths_.size(); ++pixel) {
-    const float depth = depths_[pixel];
-    const bool stays = std::abs(nearer_[pixel] - nearer_before_[pixel]) <= twiceMargin(pixel);
-    const bool is_kept = stays || std::isnan(remembered_[pixel]);
-    remembered_[pixel] = is_kept ? depth : remembered_[pixel];
-    farthest_[pixel] = is_kept && !(farthest_[pixel] >= depth) ? depth : farthest_[pixel];
-    seen += std::isnan(depth) ? 0U : 1U;
+  remember();
+}
+
+// What only one image shows may be a fault of it, as a pixel between an edge and what is behind: it is not remembered in place of
+// something else. Members are copied as in readRow().
+void DepthSurface::remember() {
+  const float slope = slope_;
+  const size_t count = depths_.size();
+  std::uint32_t seen = 0;
+  for (size_t i = 0; i < count; ++i) {
+    const float allowed = steps_[i] - slope * depths_[i];
+    const float kept = std::isnan(remembered_[i]) ? depths_[i] : remembered_[i];
+    remembered_[i] = std::abs(nearer_[i] - nearer_before_[i]) <= allowed ? depths_[i] : kept;
+    seen += std::isnan(depths_[i]) ? 0U : 1U;
+  }
+  for (size_t i = 0; i < count; ++i) {
+    const float farthest = std::isnan(farthest_[i]) ? remembered_[i] : farthest_[i];
+    farthest_[i] = remembered_[i] > farthest ? remembered_[i] : farthest;
   }
   seen_ = seen;
 }

@@ -82,6 +82,7 @@ class DepthSurface {
   void setDepth(size_t pixel, float depth);
   float twiceMargin(size_t pixel) const { return steps_[pixel] - slope_ * depths_[pixel]; }
   void hideSelf(const std::vector<SweptVolume>& bodies_F);
+  void remember();
   void findShown();
   struct PixelBounds {
     std::uint32_t left = 0, right = 0;     // columns, the last not included
