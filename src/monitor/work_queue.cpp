@@ -15,6 +15,7 @@ namespace {
 constexpr size_t kMaxPoses = 65536;  // 65 s at 1 kHz
 constexpr size_t kMaxTaken = 4096;   // PoseHistory keeps them all
 constexpr size_t kMaxTasks = 16;
+constexpr size_t kMaxImages = 16;  // each some megabytes
 
 }  // namespace
 
@@ -28,6 +29,14 @@ bool WorkQueue::push(QueuedPose pose) {
     wake();
   }
   return !full;
+}
+
+bool WorkQueue::show(std::shared_ptr<const Workpiece> image) {
+  const Lock lock(mutex_);
+  if (stopping_ || work_.images.size() >= kMaxImages) return false;
+  work_.images.push_back(std::move(image));
+  wake();
+  return true;
 }
 
 void WorkQueue::framesMoved() {
@@ -58,10 +67,11 @@ void WorkQueue::run(const std::function<void()>& task, Duration timeout) {
 
 bool WorkQueue::take(Work& taken, std::optional<SteadyTime> until) {
   taken.tasks.clear();
+  taken.images.clear();
   while (!takeNow(taken)) {
     if (!wait(until)) return true;
   }
-  return !taken.poses.empty() || !taken.tasks.empty() || taken.frames_moved;
+  return !taken.poses.empty() || !taken.tasks.empty() || !taken.images.empty() || taken.frames_moved;
 }
 
 // Returns false if it is too late. May return before there is work.
@@ -84,14 +94,20 @@ bool WorkQueue::takeNow(Work& taken) {
   if (stopping_) return true;
   takePosesNow(taken.poses);
   std::swap(taken.tasks, work_.tasks);
+  std::swap(taken.images, work_.images);
   taken.frames_moved = std::exchange(work_.frames_moved, false);
-  waiting_ = taken.poses.empty() && taken.tasks.empty() && !taken.frames_moved;
+  waiting_ = taken.poses.empty() && taken.tasks.empty() && taken.images.empty() && !taken.frames_moved;
   return !waiting_;
 }
 
 void WorkQueue::takePoses(std::vector<QueuedPose>& taken) {
   const Lock lock(mutex_);
   takePosesNow(taken);
+}
+
+std::vector<std::shared_ptr<const Workpiece>> WorkQueue::takeImages() {
+  const Lock lock(mutex_);
+  return std::exchange(work_.images, {});
 }
 
 std::vector<std::function<void()>> WorkQueue::takeTasks() {
@@ -133,9 +149,14 @@ bool WorkQueue::hasPoses() const {
   return !work_.poses.empty();
 }
 
+bool WorkQueue::hasImages() const {
+  const Lock lock(mutex_);
+  return !work_.images.empty();
+}
+
 bool WorkQueue::hasWork() const {
   const Lock lock(mutex_);
-  return !work_.poses.empty() || !work_.tasks.empty() || work_.frames_moved;
+  return !work_.poses.empty() || !work_.tasks.empty() || !work_.images.empty() || work_.frames_moved;
 }
 
 bool WorkQueue::stopped() const {

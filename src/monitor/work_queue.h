@@ -11,6 +11,7 @@
 
 #include "common/guarded_by.h"
 #include "sweep_guard/guard/pose_with_frames.h"
+#include "sweep_guard/guard/workpiece.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_core {
@@ -21,7 +22,7 @@ struct QueuedPose {
   WarningMonitor::Checkpoint checkpoint;
 };
 
-/// Holds the work of the guard's thread: poses in their order, and tasks to run between two batches of poses. One thread
+/// Holds the work of the guard's thread: poses and images in their order, and tasks to run between two batches of poses. One thread
 /// takes; any thread may call the other functions. While one of these keeps the taking thread waiting, it has at least
 /// that thread's priority (Mutex).
 class WorkQueue {
@@ -33,6 +34,7 @@ class WorkQueue {
 
   struct Work {
     std::vector<std::function<void()>> tasks;
+    std::vector<std::shared_ptr<const Workpiece>> images;  ///< Workpiece::of_camera
     std::vector<QueuedPose> poses;
     bool frames_moved = false;  ///< a frame that is followed is known further than when the work before was taken
   };
@@ -40,6 +42,10 @@ class WorkQueue {
   /// Queues a pose. In a full queue it replaces the newest one.
   /// @returns false if it replaced a pose, which is then not swept
   bool push(QueuedPose pose);
+
+  /// Queues what a camera sees.
+  /// @returns false if 16 images wait, or after stop()
+  bool show(std::shared_ptr<const Workpiece> image);
 
   /// Reports that a frame that is followed is known further.
   void framesMoved();
@@ -58,7 +64,7 @@ class WorkQueue {
   /// @throws Error as submit(), or if the task was dropped; and what the task throws
   void run(const std::function<void()>& task, Duration timeout);
 
-  /// Waits for work, which may be a frame that moved, and takes all tasks and the oldest poses, at most 4096.
+  /// Waits for work, which may be a frame that moved, and takes all tasks and images, and the oldest poses, at most 4096.
   /// @param[out] taken  overwritten; empty if no work came in time
   /// @param until  waits no longer; empty: as long as it takes
   /// @returns false after stop()
@@ -68,7 +74,10 @@ class WorkQueue {
   /// Takes poses as take() does, and no tasks. Does not wait.
   /// @param[out] taken  overwritten
   void takePoses(std::vector<QueuedPose>& taken);
+  /// Takes the images, and nothing else. Does not wait.
+  std::vector<std::shared_ptr<const Workpiece>> takeImages();
   bool hasPoses() const;
+  bool hasImages() const;
   bool hasWork() const;
 
   /// Reports that the poses taken so far are swept, except those from this one on.

@@ -187,5 +187,25 @@ TEST(WorkQueueTest, StoppingEndsEveryWait) {
   EXPECT_FALSE(queue.take(taken));
 }
 
+TEST(WorkQueueTest, TakesImagesInTheirOrderAndNoMoreThanSixteen) {
+  WorkQueue queue;
+  std::vector<std::shared_ptr<const Workpiece>> images;
+  for (int i = 0; i < 16; ++i) {
+    images.push_back(std::make_shared<const Workpiece>(
+        Workpiece{"camera", 0, {}, {}, "table", TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}})}));
+    EXPECT_TRUE(queue.show(images.back()));
+  }
+  EXPECT_FALSE(queue.show(images.front()));
+  EXPECT_TRUE(queue.hasImages() && queue.hasWork() && !queue.hasPoses());
+  EXPECT_EQ(queue.takeImages(), images);
+  EXPECT_FALSE(queue.hasWork());
+  queue.show(images.front());
+  WorkQueue::Work work;
+  EXPECT_TRUE(queue.take(work));
+  EXPECT_EQ(work.images.size(), 1U);
+  queue.stop();
+  EXPECT_FALSE(queue.show(images.front()));
+}
+
 }  // namespace
 }  // namespace sweep_guard_core

@@ -130,11 +130,7 @@ void CameraInput::take(const Msg& msg, SteadyTime received) {
   } catch (const std::exception& error) {  // invalid, no transform, or out of memory
     return refuse(error.what(), received);
   }
-  try {
-    dependencies_.show(image);
-  } catch (const sweep_guard_core::Error&) {  // too many tasks wait
-    drop(received);
-  }
+  if (!dependencies_.show(image)) drop(received);
 }
 
 // Begins anew with a camera of another size or calibration, and after another tool, in whose place the surroundings were seen.

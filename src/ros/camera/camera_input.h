@@ -35,9 +35,8 @@ struct CameraInputDependencies {
   const LiveParameters& parameters;
   sweep_guard_core::WarningMonitor& monitor;
   const sweep_guard_core::RecentPoses& poses;
-  /// Hands an image to the guard.
-  /// @throws sweep_guard_core::Error if too many wait
-  std::function<void(const std::shared_ptr<sweep_guard_core::Workpiece>&)> show;
+  /// Hands an image to the guard; false: too many wait.
+  std::function<bool(const std::shared_ptr<sweep_guard_core::Workpiece>&)> show;
 };
 
 /// Takes the images of one depth camera: puts what they show into the fixed frame at their stamps, and hands it to the guard, each

@@ -128,10 +128,6 @@ std::future<sweep_guard_core::PoseWithFrames> GuardThread::newestPose() {
   return dependencies_.queue.submit<sweep_guard_core::PoseWithFrames>([this] { return steps_.freshPose().pose; });
 }
 
-void GuardThread::show(const std::shared_ptr<const sweep_guard_core::Workpiece>& image) {
-  dependencies_.queue.submit<void>([this, image] { top_->run([&] { steps_.show(image); }); });
-}
-
 std::string GuardThread::acknowledge(const std::string& id) {
   std::string acknowledged;
   runInTime([&] { acknowledged = steps_.acknowledge(id); }, "nothing was acknowledged");
@@ -201,6 +197,7 @@ bool GuardThread::takeWork() {
     work_ = {};
   }
   for (const auto& task : work_.tasks) top_->run(task);
+  show(work_.images);
   if (work_.frames_moved && work_.poses.empty()) top_->run([this] { steps_.sweepOn(); });
   return true;
 }
@@ -210,7 +207,12 @@ bool GuardThread::pauseAfterFailure() {
   if (dependencies_.queue.stopped()) return false;
   std::this_thread::sleep_for(kPauseAfterFailure);
   for (const auto& task : dependencies_.queue.takeTasks()) top_->run(task);
+  show(dependencies_.queue.takeImages());
   return true;
+}
+
+void GuardThread::show(const std::vector<std::shared_ptr<const sweep_guard_core::Workpiece>>& images) {
+  for (const auto& image : images) top_->run([&] { steps_.show(image); });
 }
 
 // Sweeps to the next pose, or passes it. Returns false if that failed: it is the next one still.
@@ -254,7 +256,7 @@ std::optional<SteadyTime> GuardThread::latestPrediction() const {
   return std::min(predicted_at_ + dependencies_.parameters.get()->guard.cycle, pace_.dueAfterNext());
 }
 
-// Sweeps the poses that come meanwhile between two steps, as long as none of them fails.
+// Sweeps to the poses, and against the images, that come meanwhile between two steps, as long as no pose fails.
 void GuardThread::predict() {
   const sweep_guard_core::InStage stage(sweep_guard_core::Stage::kPrediction);
   sweep_guard_core::beat();
@@ -264,7 +266,8 @@ void GuardThread::predict() {
   RunningPrediction running = steps_.beginPrediction(at, pace_);
   bool interruptible = true;
   for (; !running.run.done(); running.run.step()) {
-    if (!interruptible || (next_ == work_.poses.size() && !dependencies_.queue.hasPoses())) continue;
+    const bool waits = next_ < work_.poses.size() || dependencies_.queue.hasPoses() || dependencies_.queue.hasImages();
+    if (!interruptible || !waits) continue;
     const SteadyTime begin = std::chrono::steady_clock::now();
     interruptible = sweepWaiting();
     steps_.resumePrediction();
@@ -285,9 +288,10 @@ bool GuardThread::takeMore() {
   return !work_.poses.empty();
 }
 
-// Sweeps the poses that wait. Returns false if one failed. It and those after it wait.
+// Sweeps against the images and to the poses that wait. Returns false if a pose failed. It and those after it wait.
 bool GuardThread::sweepWaiting() {
   while (std::chrono::steady_clock::now() - predicted_at_ < kMaxInterrupted) {
+    show(dependencies_.queue.takeImages());
     if (next_ == work_.poses.size() && !takeMore()) return true;
     if (!takeNext()) return false;
   }

@@ -58,9 +58,6 @@ class GuardThread {
   /// @throws sweep_guard_core::Error if there is nothing to acknowledge, or the tool is farther away than
   ///     warning/acknowledge_distance; or as apply(); then nothing is acknowledged, also later
   std::string acknowledge(const std::string& id);
-  /// Shows the guard what a camera sees, between two batches of poses: GuardSteps::show(). Any thread.
-  /// @throws sweep_guard_core::Error if too many tasks wait, or the guard is shutting down
-  void show(const std::shared_ptr<const sweep_guard_core::Workpiece>& image);
   /// Predicts the motion up to a horizon counted from now. Any thread. The future throws as GuardSteps::motion(), or
   /// std::future_error at shutdown.
   std::future<PredictService::Motion> predictMotion(sweep_guard_core::Duration horizon);
@@ -81,6 +78,7 @@ class GuardThread {
   void predict();
   bool takeMore();
   bool sweepWaiting();
+  void show(const std::vector<std::shared_ptr<const sweep_guard_core::Workpiece>>& images);
 
   const GuardThreadDependencies dependencies_;
 

@@ -3,7 +3,6 @@
 #include "ros/camera/cameras.h"
 #include "ros/connection/peer_watch.h"
 #include "ros/guard/guard_state.h"
-#include "ros/guard/guard_thread.h"
 #include "ros/input/mesh_input.h"
 #include "ros/input/other_tools.h"
 #include "ros/input/pose_input.h"
@@ -15,8 +14,7 @@ namespace sweep_guard_ros {
 class Inputs {
  public:
   /// @param master  looks for publishers; must be stopped before this is destroyed
-  /// @param guard   must outlive this
-  Inputs(const ros::NodeHandle& node, GuardState& state, GuardThread& guard, MasterThread& master);
+  Inputs(const ros::NodeHandle& node, GuardState& state, MasterThread& master);
 
   void start();
   void takeEarly() { meshes_.takeEarly(); }               ///< as MeshInput
