@@ -53,7 +53,7 @@ std::string infoTopicOf(const std::string& topic) {
 
 }  // namespace
 
-CameraInput::CameraInput(ros::NodeHandle node, const CameraParameters& camera,
+CameraInput::CameraInput(const ros::NodeHandle& node, const CameraParameters& camera,
                          const CameraInputDependencies& dependencies)
     : camera_(camera),
       dependencies_(dependencies),
@@ -74,7 +74,7 @@ CameraInput::CameraInput(ros::NodeHandle node, const CameraParameters& camera,
 template <typename Msg>
 BoundedSubscriber CameraInput::subscribe(ros::NodeHandle node) {
   const auto take_later = [this](const ros::MessageEvent<const Msg>& event) {
-    const auto msg = event.getConstMessage();
+    const auto& msg = event.getConstMessage();
     const SteadyTime received = std::chrono::steady_clock::now();
     record_.received({fromMsg(msg->header.stamp), received});
     worker_.push({[this, msg, received] { take(*msg, received); }, [this, received] { drop(received); }, 1});

@@ -45,7 +45,7 @@ struct CameraInputDependencies {
 class CameraInput {
  public:
   /// @param node  whose callbacks run in the thread that receives
-  CameraInput(ros::NodeHandle node, const CameraParameters& camera, const CameraInputDependencies& dependencies);
+  CameraInput(const ros::NodeHandle& node, const CameraParameters& camera, const CameraInputDependencies& dependencies);
 
   void start(Supervisor& supervisor);
 
