@@ -29,18 +29,6 @@ void checkOptions(const DepthOptions& options) {
         "the margin of a camera is at least 0 and finite");
 }
 
-// Returns whether no plane of a convex volume has a segment wholly beyond it.
-bool mayMeet(const SweptVolume& body_F, const Eigen::Vector3d& from_F, const Eigen::Vector3d& to_F) {
-  const Eigen::Isometry3d X_BF = body_F.box.X_MB.inverse();
-  const Eigen::Vector3d from_B = X_BF * from_F;
-  const Eigen::Vector3d to_B = X_BF * to_F;
-  bool beyond = false;
-  body_F.forEachHalfSpace([&](const Eigen::Vector3d& normal_B, double offset) {
-    beyond = beyond || (normal_B.dot(from_B) > offset && normal_B.dot(to_B) > offset);
-  });
-  return !beyond;
-}
-
 }  // namespace
 
 DepthSurface::DepthSurface(const Grid& grid, const Pinhole& camera, const DepthOptions& options)
@@ -61,7 +49,8 @@ DepthSurface::DepthSurface(const Grid& grid, const Pinhole& camera, const DepthO
       places_before_F_(3 * grid.places(), 0.0F),
       places_F_(places_before_F_),
       before_F_(places_before_F_),
-      existing_(grid.tiles(), 0) {
+      existing_(grid.tiles(), 0),
+      self_(grid, camera) {
   checkCamera(camera);
   checkOptions(options);
   for (size_t u = 0; u < grid.tileColumns() * kColumns; ++u)
@@ -130,12 +119,9 @@ void DepthSurface::hideSelf(const std::vector<SweptVolume>& bodies_F) {
     const double depth = (X_FC_.inverse() * body_F.box.X_MB.translation()).z() + body_F.box.half_extents.norm();
     bodies_F_.push_back(body_F.grown(options_.margin[0] + options_.margin[1] * depth * depth));
   }
-  hidden_.assign(grid_.tiles(), 0);
-  findShown();
-  for (const SweptVolume& body_F : bodies_F_) findCast(body_F);
-  hidden_count_ = 0;
-  for (size_t tile = 0; tile < hidden_.size(); ++tile) {
-    if (hidden_[tile] != 0) hide(tile);
+  self_.find({places_F_, depths_, stride_}, X_FC_, bodies_F_);
+  for (size_t tile = 0; tile < self_.tiles().size(); ++tile) {
+    if (self_.tiles()[tile] != 0) hide(tile);
   }
   remember();
 }
@@ -159,63 +145,10 @@ void DepthSurface::remember() {
   seen_ = seen;
 }
 
-// Where the robot is seen.
-void DepthSurface::findShown() {
-  self_.find(places_F_, bodies_F_);
-  for (size_t tile = 0; tile < hidden_.size(); ++tile) {
-    for (std::uint32_t left = self_.tiles()[tile]; left != 0; left &= left - 1) {
-      const auto i = static_cast<std::uint32_t>(__builtin_ctz(left));
-      if (!std::isnan(depths_[pixelOf(tile, i)])) hidden_[tile] |= std::uint32_t{1} << i;
-    }
-  }
-}
-
-// Where nothing is seen and a ray comes to a body: where it is between the depths of the body, it is not beyond one plane.
-void DepthSurface::findCast(const SweptVolume& body_F) {
-  const PixelBounds bounds = boundsOf(body_F);
-  for (std::uint32_t v = bounds.top; v < bounds.bottom; ++v) {
-    for (std::uint32_t u = bounds.left; u < bounds.right; ++u) {
-      if (!std::isnan(depths_[v * stride_ + u])) continue;
-      const Eigen::Vector3d ray_F = X_FC_.linear() * Eigen::Vector3d(x_[u], y_[v], 1.0);
-      if (!mayMeet(body_F, X_FC_.translation() + bounds.nearest * ray_F, X_FC_.translation() + bounds.farthest * ray_F))
-        continue;
-      const std::uint32_t place = grid_.place(u, v);
-      hidden_[place / Grid::kTilePixels] |= std::uint32_t{1} << place % Grid::kTilePixels;
-    }
-  }
-}
-
-// Returns the pixels and depths in which a body may be.
-DepthSurface::PixelBounds DepthSurface::boundsOf(const SweptVolume& body_F) const {
-  const Eigen::Isometry3d X_CB = X_FC_.inverse() * body_F.box.X_MB;
-  Eigen::AlignedBox3d bounds_C;
-  Eigen::AlignedBox2d picture;
-  const auto limits = [](double low, double high, std::uint32_t size) {
-    const auto clamped = [size](double at) {
-      return static_cast<std::uint32_t>(std::clamp(at, 0.0, static_cast<double>(size)));
-    };
-    return std::pair(clamped(std::floor(low)), clamped(std::ceil(high) + 1.0));
-  };
-  for (int corner = 0; corner < 8; ++corner) {
-    const Eigen::Vector3d sides((corner & 1) != 0 ? 1.0 : -1.0, (corner & 2) != 0 ? 1.0 : -1.0,
-                                (corner & 4) != 0 ? 1.0 : -1.0);
-    const Eigen::Vector3d p_C = X_CB * sides.cwiseProduct(body_F.box.half_extents);
-    bounds_C.extend(p_C);
-    const double z = std::max(p_C.z(), 1e-6);
-    picture.extend(Eigen::Vector2d(camera_.fx * p_C.x() / z + camera_.cx, camera_.fy * p_C.y() / z + camera_.cy));
-  }
-  if (bounds_C.max().z() <= 0.0) return {};
-  const bool around = bounds_C.min().z() <= 1e-3;
-  const auto [left, right] =
-      around ? std::pair(0U, grid_.width()) : limits(picture.min().x(), picture.max().x(), grid_.width());
-  const auto [top, bottom] =
-      around ? std::pair(0U, grid_.height()) : limits(picture.min().y(), picture.max().y(), grid_.height());
-  return {left, right, top, bottom, std::max(0.0, bounds_C.min().z()), bounds_C.max().z()};
-}
-
 void DepthSurface::hide(size_t tile) {
-  for (std::uint32_t left = hidden_[tile]; left != 0; left &= left - 1, ++hidden_count_) {
-    const size_t pixel = pixelOf(tile, static_cast<std::uint32_t>(__builtin_ctz(left)));
+  for (std::uint32_t left = self_.tiles()[tile]; left != 0; left &= left - 1) {
+    const auto [u, v] = grid_.pixel(tile, static_cast<std::uint32_t>(__builtin_ctz(left)));
+    const size_t pixel = v * stride_ + u;
     const float free_to = depths_[pixel] - twiceMargin(pixel);  // the robot is seen there
     if (remembered_[pixel] < free_to) remembered_[pixel] = farthest_[pixel];
     setDepth(pixel, remembered_[pixel] < free_to ? kNothing : remembered_[pixel]);
@@ -226,11 +159,6 @@ void DepthSurface::hide(size_t tile) {
     const size_t place = tile * Grid::kTilePixels + i * kColumns;
     placeRow(X_FC_, column, row + i, &places_F_[3 * (place == 0 ? 0 : place - 1)], &places_F_[3 * place]);
   }
-}
-
-size_t DepthSurface::pixelOf(size_t tile, std::uint32_t i) const {
-  const size_t row = tile / grid_.tileColumns() * kRows + i / kColumns;
-  return row * stride_ + tile % grid_.tileColumns() * kColumns + i % kColumns;
 }
 
 void DepthSurface::setDepth(size_t pixel, float depth) {
@@ -297,9 +225,8 @@ bool DepthSurface::showsSelf(const std::vector<float>& depths, std::uint32_t col
   };
   for (std::uint32_t v = from(row); v <= to(row, grid_.height()); ++v) {
     for (std::uint32_t u = from(column); u <= to(column, grid_.width()); ++u) {
-      const std::uint32_t place = grid_.place(u, v);
-      const bool is_hidden = (hidden_[place / Grid::kTilePixels] >> place % Grid::kTilePixels & 1U) != 0;
-      if (is_hidden && depths[size_t{v} * grid_.width() + u] <= static_cast<float>(options_.farthest)) return true;
+      if (self_.hides(u, v) && depths[size_t{v} * grid_.width() + u] <= static_cast<float>(options_.farthest))
+        return true;
     }
   }
   return false;

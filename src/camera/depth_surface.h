@@ -5,17 +5,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "camera/pinhole.h"
 #include "camera/self_pixels.h"
 #include "sweep_guard/geometry/grid.h"
 
 namespace sweep_guard_core {
-
-/// A camera without distortion, in its optical frame C: x to the right of the image, y down, z forwards (REP 103). Pixel (u, v) sees
-/// along ((u - cx) / fx, (v - cy) / fy, 1).
-struct Pinhole {
-  double fx, fy;  ///< [pixels]
-  double cx, cy;  ///< [pixels]
-};
 
 /// How the depths of a camera are taken.
 struct DepthOptions {
@@ -57,7 +51,7 @@ class DepthSurface {
   /// Returns for each cluster the bits of its triangles that exist; the same.
   std::vector<std::uint64_t>& existing() { return existing_; }
   size_t seen() const { return seen_; }          ///< pixels of the newest image that are vertices
-  size_t self() const { return hidden_count_; }  ///< pixels of the newest image that the robot hides
+  size_t self() const { return self_.count(); }  ///< pixels of the newest image that the robot hides
   bool rests() const { return rests_; }          ///< the camera, since the image before
 
   /// Points of the robot that the newest image has to show, and how many it shows where they are expected.
@@ -83,15 +77,6 @@ class DepthSurface {
   float twiceMargin(size_t pixel) const { return steps_[pixel] - slope_ * depths_[pixel]; }
   void hideSelf(const std::vector<SweptVolume>& bodies_F);
   void remember();
-  void findShown();
-  struct PixelBounds {
-    std::uint32_t left = 0, right = 0;     // columns, the last not included
-    std::uint32_t top = 0, bottom = 0;     // rows
-    double nearest = 0.0, farthest = 0.0;  // depths [m]
-  };
-  void findCast(const SweptVolume& body_F);
-  PixelBounds boundsOf(const SweptVolume& body_F) const;
-  size_t pixelOf(size_t tile, std::uint32_t i) const;
   void hide(size_t tile);
   bool showsSelf(const std::vector<float>& depths, std::uint32_t column, std::uint32_t row, double pixels) const;
   void findMotion(double reach);
@@ -128,8 +113,6 @@ class DepthSurface {
   bool rests_ = false;
   SelfPixels self_;
   std::vector<SweptVolume> bodies_F_;  // with the margin
-  std::vector<std::uint32_t> hidden_;  // of each tile, a bit for each pixel that the robot hides
-  size_t hidden_count_ = 0;
   size_t seen_ = 0;
 };
 

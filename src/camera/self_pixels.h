@@ -1,31 +1,62 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <vector>
 
+#include "camera/pinhole.h"
+#include "sweep_guard/geometry/grid.h"
 #include "sweep_guard/geometry/swept_volume.h"
 #include "sweep_guard/geometry/vertex_blocks.h"
 #include "sweep_guard/simd/kernels.h"
 
 namespace sweep_guard_core {
 
-/// Finds the vertices that the robot itself has: what lies in the volumes around its bodies. Keeps its buffers.
+/// An image, and the vertices that it shows.
+struct SeenVertices {
+  const std::vector<float>& places_F;  ///< of the vertices of a grid: x0 y0 z0 x1 ... [m]
+  const std::vector<float>& depths;    ///< of the pixels [m], row by row; NaN: not seen
+  size_t stride;                       ///< of its rows, at least the width of the grid
+};
+
+/// Finds the pixels that the robot itself hides: those that show what lies in the volumes around its bodies, and those that show
+/// nothing where their ray comes to such a volume. Keeps its buffers.
 class SelfPixels {
  public:
-  /// Finds the vertices within any of the volumes. Tests the boxes of tiles first.
-  /// @param places_F   of the vertices of a grid: x0 y0 z0 x1 ... [m]
-  /// @param bodies_F   convex volumes around the bodies, as much larger as what is near to them counts as the robot
-  void find(const std::vector<float>& places_F, const std::vector<SweptVolume>& bodies_F);
+  SelfPixels(const Grid& grid, const Pinhole& camera) : grid_(grid), camera_(camera), tiles_(grid.tiles(), 0) {}
+
+  /// Finds the pixels. Tests the boxes of tiles first.
+  /// @param X_FC      pose of the camera [m]
+  /// @param bodies_F  convex volumes around the bodies, as much larger as what is near to them counts as the robot
+  void find(const SeenVertices& seen, const Eigen::Isometry3d& X_FC, const std::vector<SweptVolume>& bodies_F);
 
   /// Returns for each tile of the grid a bit for each of its pixels.
   const std::vector<std::uint32_t>& tiles() const { return tiles_; }
+  bool hides(std::uint32_t column, std::uint32_t row) const {
+    const std::uint32_t place = grid_.place(column, row);
+    return (tiles_[place / Grid::kTilePixels] >> place % Grid::kTilePixels & 1U) != 0;
+  }
+  size_t count() const { return count_; }  ///< pixels found
 
  private:
-  void add(const std::vector<float>& places_F, const simd::Planes& planes);
+  // Where a body may be in the picture, and how far.
+  struct PixelBounds {
+    std::uint32_t left = 0, right = 0;     // columns, the last not included
+    std::uint32_t top = 0, bottom = 0;     // rows
+    double nearest = 0.0, farthest = 0.0;  // depths [m]
+  };
 
+  void addShown(const SeenVertices& seen, const simd::Planes& planes);
+  void addCast(const SeenVertices& seen, const Eigen::Isometry3d& X_FC, const SweptVolume& body_F);
+  PixelBounds boundsOf(const Eigen::Isometry3d& X_CB, const Eigen::Vector3d& half_extents) const;
+  void add(std::uint32_t place) { tiles_[place / Grid::kTilePixels] |= std::uint32_t{1} << place % Grid::kTilePixels; }
+
+  const Grid grid_;
+  const Pinhole camera_;
   VertexBlocks blocks_;
   std::vector<std::uint16_t> beyond_;  // of each tile, planes
   std::vector<std::uint32_t> tiles_;
+  size_t count_ = 0;
 };
 
 }  // namespace sweep_guard_core

@@ -34,14 +34,6 @@ void rescale(std::vector<TriangleContact>& in_contact, double begin, double end)
   }
 }
 
-MovingMesh movingMesh(const Workpiece& now, const Workpiece& before, const Displacements& displacements) {
-  if (&now == &before) return now.mesh_M;
-  const bool skipped = now.updates > before.updates + 1;
-  const double path_length = now.path_length - before.path_length;
-  const double deviation = skipped ? pathDeviation(path_length, displacements.lowerBound()) : 0.0;
-  return {now.mesh_M, before.mesh_M, displacements, deviation};
-}
-
 // Returns whether no volume of a segment comes to the mesh.
 bool staysOutOfReach(const SweepSetup& setup, const PoseHistory& history, size_t first, size_t last,
                      const MovingMesh& mesh) {

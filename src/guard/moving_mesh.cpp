@@ -42,6 +42,14 @@ MovingTriangle MovingMesh::untranslated(std::uint32_t index) const {
   return {{mesh_M_.vertexBefore(a), mesh_M_.vertexBefore(b), mesh_M_.vertexBefore(c)}, now_M};
 }
 
+MovingMesh movingMesh(const Workpiece& now, const Workpiece& before, const Displacements& displacements) {
+  if (&now == &before) return now.mesh_M;
+  const bool skipped = now.updates > before.updates + 1;
+  const double path_length = now.path_length - before.path_length;
+  const double deviation = skipped ? pathDeviation(path_length, displacements.lowerBound()) : 0.0;
+  return {now.mesh_M, before.mesh_M, displacements, deviation};
+}
+
 // A path of this length deviates most if it forms an isosceles triangle with the straight path.
 double pathDeviation(double path_length, double displacement) {
   return 0.5 * std::sqrt(std::max(0.0, (path_length - displacement) * (path_length + displacement)));

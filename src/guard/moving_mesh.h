@@ -6,6 +6,7 @@
 #include "sweep_guard/detection/submesh.h"
 #include "sweep_guard/detection/time_of_impact.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
+#include "sweep_guard/guard/workpiece.h"
 
 namespace sweep_guard_core {
 
@@ -48,6 +49,11 @@ class MovingMesh {
   double spread_ = mesh_M_.margin();
   double uncertainty_ = mesh_M_.margin();
 };
+
+/// Returns the mesh of a workpiece on the way from one deformation to another. Where updates between them were not kept, a vertex
+/// may have left its straight path.
+/// @param displacements  from `before` to `now`
+MovingMesh movingMesh(const Workpiece& now, const Workpiece& before, const Displacements& displacements);
 
 /// Returns an upper bound on the distance of a vertex from its straight path [m].
 /// @param path_length   upper bound on the length of the vertex's path [m]

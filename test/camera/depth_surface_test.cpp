@@ -183,6 +183,14 @@ TEST_F(DepthSurfaceTest, WhatWasSeenBeforeIsForgotten) {
   EXPECT_TRUE(trianglesOf(mesh_F).empty());
 }
 
+// The middle of a box of 0.1 m at the center of the picture.
+SweptVolume boxAt(double depth) {
+  SweptVolume box;
+  box.box.X_MB = placedAt(0.0, 0.0, depth);
+  box.box.half_extents = Eigen::Vector3d::Constant(0.05);
+  return box;
+}
+
 // Of two images of a wall, with the same pose of the camera unless it is stated.
 class DepthMotionTest : public DepthSurfaceTest {
  protected:
@@ -197,6 +205,13 @@ class DepthMotionTest : public DepthSurfaceTest {
   }
 
   DepthSurface surface_{grid_, kCamera, kExact};
+  // A robot before a wall, in one pixel.
+  void takeRobotBefore(float depth) {
+    std::vector<float> robot = wall(depth);
+    at(robot, 26, 18) = 0.5F;
+    take(robot, 0.0, {boxAt(0.5)});
+  }
+
   Eigen::Isometry3d X_FC_ = Eigen::Isometry3d::Identity();
 };
 
@@ -231,19 +246,9 @@ TEST_F(DepthMotionTest, NothingMovesAlongTheRaysOfACameraThatMoves) {
   EXPECT_EQ(before(40, 30), now(40, 30));
 }
 
-// The middle of a box of 0.1 m at the center of the picture.
-SweptVolume boxAt(double depth) {
-  SweptVolume box;
-  box.box.X_MB = placedAt(0.0, 0.0, depth);
-  box.box.half_extents = Eigen::Vector3d::Constant(0.05);
-  return box;
-}
-
 TEST_F(DepthMotionTest, WhatTheRobotHidesStaysWhereItWasSeen) {
   take(wall(1.0F), 0.0);
-  std::vector<float> robot = wall(1.0F);
-  at(robot, 26, 18) = 0.5F;
-  take(robot, 0.0, {boxAt(0.5)});
+  takeRobotBefore(1.0F);
   EXPECT_EQ(surface_.self(), 1U);
   EXPECT_EQ(surface_.seen(), size_t{kWidth} * kHeight);
   EXPECT_TRUE(now(26, 18).isApprox(onRay(26, 18, 1.0), 1e-6));
@@ -253,18 +258,14 @@ TEST_F(DepthMotionTest, WhatTheRobotHidesStaysWhereItWasSeen) {
 }
 
 TEST_F(DepthMotionTest, WhatTheRobotHasHiddenSinceTheBeginningIsNoSurface) {
-  std::vector<float> robot = wall(1.0F);
-  at(robot, 26, 18) = 0.5F;
-  take(robot, 0.0, {boxAt(0.5)});
+  takeRobotBefore(1.0F);
   EXPECT_EQ(surface_.seen(), size_t{kWidth} * kHeight - 1);
 }
 
 TEST_F(DepthMotionTest, ACameraThatMovesForgetsWhatTheRobotHides) {
   take(wall(1.0F), 0.0);
   X_FC_.translation().x() = 1e-3;
-  std::vector<float> robot = wall(1.0F);
-  at(robot, 26, 18) = 0.5F;
-  take(robot, 0.0, {boxAt(0.5)});
+  takeRobotBefore(1.0F);
   EXPECT_EQ(surface_.seen(), size_t{kWidth} * kHeight - 1);
 }
 
@@ -283,9 +284,7 @@ TEST_F(DepthMotionTest, WhatARobotWithoutDepthHidesStaysWhereItWasSeen) {
 TEST_F(DepthMotionTest, WhatHasGivenWayToTheDistanceIsNotRemembered) {
   take(wall(1.0F), 0.0);
   take(wall(7.0F), 0.0);
-  std::vector<float> robot = wall(7.0F);
-  at(robot, 26, 18) = 0.5F;
-  take(robot, 0.0, {boxAt(0.5)});
+  takeRobotBefore(7.0F);
   EXPECT_EQ(surface_.seen(), 0U);
 }
 

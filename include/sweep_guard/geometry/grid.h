@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "sweep_guard/geometry/mesh_order.h"
@@ -36,6 +37,14 @@ class Grid {
   std::uint32_t place(std::uint32_t column, std::uint32_t row) const {
     const std::uint32_t tile = row / kTileRows * tileColumns() + column / kTileColumns;
     return tile * kTilePixels + row % kTileRows * kTileColumns + column % kTileColumns;
+  }
+
+  /// Returns the column and the row of a pixel of a tile; not checked.
+  /// @param i  its place in the tile, below kTilePixels
+  std::pair<std::uint32_t, std::uint32_t> pixel(size_t tile, std::uint32_t i) const {
+    const auto number = static_cast<std::uint32_t>(tile);
+    return {number % tileColumns() * kTileColumns + i % kTileColumns,
+            number / tileColumns() * kTileRows + i / kTileColumns};
   }
 
   /// Returns the triangles at their places. Those of tile t begin at t * simd::kCluster, two for each of its pixels: 2 i and

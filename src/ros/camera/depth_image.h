@@ -23,8 +23,8 @@ struct ImageSize {
 ImageSize readDepths(const sensor_msgs::Image& image, std::vector<float>& depths);
 
 /// Reads a depth image that compressed_depth_image_transport has packed as PNG. The values of a packed 32FC1 image are
-/// inverse depths. With the defaults of that package their steps are depth^2 / 10100, and the package itself turns
-/// depths below 0.154 m into larger ones. libpng allocates some 60 kB for the time of the call.
+/// inverse depths: by default that package rounds them by up to depth^2 / 10100, and writes larger depths in place of those
+/// below 0.154 m. libpng allocates some 60 kB for the time of the call.
 /// @param[out] depths  as above
 /// @throws sweep_guard_core::InvalidInput, saying what to publish, if the image is packed otherwise (RVL, the topic
 ///     `compressed`), if the PNG is not as sizeOfGrayPng() and readGrayPng() want it, or if the numbers that scale

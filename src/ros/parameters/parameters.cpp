@@ -1,5 +1,6 @@
 // The table of the guard's parameters, in the order of doc/interface.md and config/sweep_guard.yaml.
 #include "ros/parameters/parameters.h"
+#include "ros/parameters/duration.h"
 
 #include <ros/console.h>
 
@@ -12,6 +13,7 @@
 #include "ros/output/markers.h"
 #include "ros/parameters/parameter_changes.h"
 #include "ros/parameters/tool_parameters.h"
+#include "ros/parameters/workpiece_parameters.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_ros {
@@ -23,17 +25,12 @@ using sweep_guard_core::shortestText;
 using sweep_guard_core::WarningThresholds;
 
 constexpr double kMinStep = 0.001;        // [s]
-constexpr double kLongest = 9e9;          // what is longer never ends: a Duration holds 292 years [s]
 constexpr size_t kBytesPerTriangle = 84;  // three indices and three vertices of a mesh that shares none
 constexpr size_t kMebibyte = 1U << 20;
 constexpr double kMaxHorizon = 5.0;  // [s]
 constexpr double kMinProbability = 0.001;
 constexpr double kShownProbability = 0.01;  // smaller ones are shown only if a warning depends on them
 constexpr double kMaxStiffness = 1e12;      // [N/m^3]
-
-Duration toDuration(double seconds) {
-  return seconds > kLongest ? Duration::max() : sweep_guard_core::fromSeconds(seconds);
-}
 
 sweep_guard_core::PredictorOptions readPredictor(ParameterReader& read) {
   const std::vector<std::string> axes = {"x", "y", "z", "rx", "ry", "rz"};
@@ -92,29 +89,6 @@ sweep_guard_core::InteractionOptions readInteraction(ParameterReader& read) {
                          "~interaction: where the integral of the surface's normal inside the tool is less, the "
                          "force is less by the same share. It keeps the force continuous.");
   return options;
-}
-
-template <typename Value>
-void addRule(const std::string& id, const Value& value, sweep_guard_core::Rules<Value>& rules) {
-  rules.by_id.insert({{id, value}, {"/" + id, value}});  // YAML's key of an id with a slash at its front has none
-}
-
-void readWorkpieces(ParameterReader& read, Parameters& parameters) {
-  const auto rules = read.groupsByName(
-      "workpieces",
-      {{"open"}, {"padding", ParameterRange{0.0, 1.0, "m"}}, {"timeout", ParameterRange{0.01, kInfinity, "s"}}},
-      "Rules for some workpieces by their id, and by '*' for all others, as in {curtain: {open: true}, '*': {timeout: "
-      "0.2}}. open: the surface has no inside, so the guard does not test for it and does not report INSIDE_UNTESTED. "
-      "padding: the workpiece counts as nearer by this, for sweeps, predictions and planes; the depth of an intention "
-      "counts from there. timeout: in place of timing/mesh_timeout.");
-  for (const auto& [id, rule] : rules) {
-    if (id != "*") parameters.ruled_ids.insert(id);
-    if (const auto open = rule.find("open"); open != rule.end()) addRule(id, open->second != 0.0, parameters.sheets);
-    if (const auto padding = rule.find("padding"); padding != rule.end())
-      addRule(id, padding->second, parameters.paddings);
-    if (const auto timeout = rule.find("timeout"); timeout != rule.end())
-      addRule(id, toDuration(timeout->second), parameters.limits.mesh_timeouts);
-  }
 }
 
 sweep_guard_core::HorizonOptions readHorizon(ParameterReader& read, Duration pose_timeout) {
@@ -291,11 +265,6 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
                  "listened to. []: all ids that come.");
   parameters.mesh_ids.insert(ids.begin(), ids.end());
   readWorkpieces(read, parameters);
-  parameters.cameras = readCameras(read);
-  for (const CameraParameters& camera : parameters.cameras) {
-    for (const std::string& id : {camera.id, "/" + camera.id})
-      parameters.limits.mesh_timeouts.by_id.insert_or_assign(id, camera.timeout);
-  }
   if (!parameters.cameras.empty()) readRobotLinks(read, before, parameters);
   parameters.other_tools = read.nodes(
       "other_tools",
