@@ -40,7 +40,6 @@ DepthSurface::DepthSurface(const Grid& grid, const Pinhole& camera, const DepthO
       stride_(size_t{grid.tileColumns()} * kColumns + 1),
       inverse_((size_t{grid.tileRows()} * kRows + 1) * stride_, 0.0F),
       depths_(inverse_.size(), kNothing),
-      steps_(depths_),
       nearer_(depths_),
       pairs_(stride_ * kRows),
       remembered_(depths_),
@@ -62,15 +61,25 @@ DepthSurface::DepthSurface(const Grid& grid, const Pinhole& camera, const DepthO
   }
 }
 
+// A row of tiles goes through all steps while the processor's cache holds it. Its last triangles reach into the next one.
 void DepthSurface::take(const std::vector<float>& depths, const Eigen::Isometry3d& X_FC, double reach,
                         const std::vector<SweptVolume>& bodies_F) {
   assert(depths.size() == size_t{grid_.width()} * grid_.height());
   findRest(X_FC);
-  for (size_t row = 0; row < grid_.height(); ++row) readRow(depths, row);
-  placeVertices(X_FC_, places_F_);
-  hideSelf(bodies_F);
-  findTriangles();
-  findMotion(reach);
+  before_F_.swap(places_before_F_);
+  beginSelf(bodies_F);
+  seen_ = 0;
+  for (size_t row = 0; row < y_.size(); row += kRows) {
+    for (size_t v = row; v < std::min<size_t>(row + kRows, grid_.height()); ++v) readRow(depths, v);
+    placeTiles(row);
+    hideSelf(row);
+    remember(row);
+    findMotion(row, static_cast<float>(reach));
+    if (row > 0) findTriangles(row - kRows);
+  }
+  findTriangles(y_.size() - kRows);
+  placeUnseen();
+  nearer_before_.swap(nearer_);
 }
 
 // Transforms that are interpolated differ in their last digits.
@@ -97,7 +106,6 @@ void DepthSurface::readRow(const std::vector<float>& depths, size_t row) {
   const auto nearest = static_cast<float>(options_.nearest);
   const auto farthest = static_cast<float>(options_.farthest);
   const std::array<float, 2> margin = margin_;
-  const float slope = slope_;
   const size_t from = row * grid_.width();
   const size_t to = row * stride_;
   for (size_t i = 0; i < grid_.width(); ++i) {
@@ -105,51 +113,54 @@ void DepthSurface::readRow(const std::vector<float>& depths, size_t row) {
     const float depth = is_seen ? depths[from + i] : kNothing;
     const float error = margin[0] + margin[1] * depth * depth;
     depths_[to + i] = depth;
-    steps_[to + i] = slope * depth + 2.0F * error;
     nearer_[to + i] = std::max(depth - error * inverse_[to + i], 0.0F);
   }
   for (size_t i = 0; i < grid_.width(); ++i)
     remembered_[to + i] = depths[from + i] > farthest ? kNothing : remembered_[to + i];
 }
 
-// Pixels that the robot hides become what they showed before.
-void DepthSurface::hideSelf(const std::vector<SweptVolume>& bodies_F) {
+void DepthSurface::beginSelf(const std::vector<SweptVolume>& bodies_F) {
   bodies_F_.clear();
   for (const SweptVolume& body_F : bodies_F) {
     const double depth = (X_FC_.inverse() * body_F.box.X_MB.translation()).z() + body_F.box.half_extents.norm();
     bodies_F_.push_back(body_F.grown(options_.margin[0] + options_.margin[1] * depth * depth));
   }
-  self_.find({places_F_, depths_, stride_}, X_FC_, bodies_F_);
-  for (size_t tile = 0; tile < self_.tiles().size(); ++tile) {
+  self_.begin(X_FC_, bodies_F_);
+}
+
+// Pixels that the robot hides become what they showed before.
+void DepthSurface::hideSelf(size_t row) {
+  const size_t first = row / kRows * grid_.tileColumns();
+  self_.find({places_F_, depths_, stride_}, row / kRows);
+  for (size_t tile = first; tile < first + grid_.tileColumns(); ++tile) {
     if (self_.tiles()[tile] != 0) hide(tile);
   }
-  remember();
 }
 
 // What only one image shows may be a fault of it, as a pixel between an edge and what is behind: it is not remembered in place of
 // something else. Members are copied as in readRow().
-void DepthSurface::remember() {
-  const float slope = slope_;
-  const size_t count = depths_.size();
+void DepthSurface::remember(size_t row) {
+  const std::array<float, 2> margin = margin_;
+  const size_t end = (row + kRows) * stride_;
   std::uint32_t seen = 0;
-  for (size_t i = 0; i < count; ++i) {
-    const float allowed = steps_[i] - slope * depths_[i];
+  for (size_t i = row * stride_; i < end; ++i) {
+    const float allowed = 2.0F * (margin[0] + margin[1] * depths_[i] * depths_[i]);
     const float kept = std::isnan(remembered_[i]) ? depths_[i] : remembered_[i];
     remembered_[i] = std::abs(nearer_[i] - nearer_before_[i]) <= allowed ? depths_[i] : kept;
     seen += std::isnan(depths_[i]) ? 0U : 1U;
   }
-  for (size_t i = 0; i < count; ++i) {
+  for (size_t i = row * stride_; i < end; ++i) {
     const float farthest = std::isnan(farthest_[i]) ? remembered_[i] : farthest_[i];
     farthest_[i] = remembered_[i] > farthest ? remembered_[i] : farthest;
   }
-  seen_ = seen;
+  seen_ += seen;
 }
 
 void DepthSurface::hide(size_t tile) {
   for (std::uint32_t left = self_.tiles()[tile]; left != 0; left &= left - 1) {
     const auto [u, v] = grid_.pixel(tile, static_cast<std::uint32_t>(__builtin_ctz(left)));
     const size_t pixel = v * stride_ + u;
-    const float free_to = depths_[pixel] - twiceMargin(pixel);  // the robot is seen there
+    const float free_to = depths_[pixel] - 2.0F * errorAt(depths_[pixel]);  // the robot is seen there
     if (remembered_[pixel] < free_to) remembered_[pixel] = farthest_[pixel];
     setDepth(pixel, remembered_[pixel] < free_to ? kNothing : remembered_[pixel]);
   }
@@ -157,29 +168,23 @@ void DepthSurface::hide(size_t tile) {
   const size_t column = tile % grid_.tileColumns() * kColumns;
   for (size_t i = 0; i < kRows; ++i) {
     const size_t place = tile * Grid::kTilePixels + i * kColumns;
-    placeRow(X_FC_, column, row + i, &places_F_[3 * (place == 0 ? 0 : place - 1)], &places_F_[3 * place]);
+    placeRow(column, row + i, &places_F_[3 * (place == 0 ? 0 : place - 1)], &places_F_[3 * place]);
   }
 }
 
 void DepthSurface::setDepth(size_t pixel, float depth) {
-  const float error = margin_[0] + margin_[1] * depth * depth;
   depths_[pixel] = depth;
-  steps_[pixel] = slope_ * depth + 2.0F * error;
-  nearer_[pixel] = std::max(depth - error * inverse_[pixel], 0.0F);
+  nearer_[pixel] = std::max(depth - errorAt(depth) * inverse_[pixel], 0.0F);
 }
 
 // As a rule all go on: what does not is exchanged.
-void DepthSurface::findMotion(double reach) {
-  const auto most = static_cast<float>(reach);
-  before_F_.swap(places_before_F_);
-  size_t place = 0;
-  for (size_t v = 0; v < y_.size(); v += kRows) {
-    for (size_t u = 0; u < x_.size(); u += kColumns) {
-      for (size_t row = v; row < v + kRows; ++row, place += kColumns) endMotions(most, row * stride_ + u, place);
-    }
+void DepthSurface::findMotion(size_t row, float reach) {
+  const size_t first = placeOf(row);
+  size_t place = first;
+  for (size_t u = 0; u < x_.size(); u += kColumns) {
+    for (size_t v = row; v < row + kRows; ++v, place += kColumns) endMotions(reach, v * stride_ + u, place);
   }
-  nearer_before_ = nearer_;
-  places_before_F_ = places_F_;
+  std::copy(&places_F_[3 * first], &places_F_[3 * place], &places_before_F_[3 * first]);
 }
 
 // Of the pixels in a row of a tile.
@@ -232,53 +237,63 @@ bool DepthSurface::showsSelf(const std::vector<float>& depths, std::uint32_t col
   return false;
 }
 
-void DepthSurface::placeVertices(const Eigen::Isometry3d& X_FC, std::vector<float>& places_F) const {
-  const Eigen::Vector3f p_FC = X_FC.translation().cast<float>();
-  const float* before_F = p_FC.data();
-  size_t place = 0;
-  size_t first = 0;  // that is seen
-  for (size_t v = 0; v < y_.size(); v += kRows) {
-    for (size_t u = 0; u < x_.size(); u += kColumns) {
-      for (size_t row = v; row < v + kRows; ++row, place += kColumns) {
-        const size_t unseen = placeRow(X_FC, u, row, before_F, &places_F[3 * place]);
-        if (first == place) first += unseen;
-        before_F = &places_F[3 * (place + kColumns - 1)];
-      }
+void DepthSurface::placeTiles(size_t row) {
+  const Eigen::Vector3f p_FC = X_FC_.translation().cast<float>();
+  size_t place = placeOf(row);
+  const float* before_F = place == 0 ? p_FC.data() : &places_F_[3 * (place - 1)];
+  for (size_t u = 0; u < x_.size(); u += kColumns) {
+    for (size_t v = row; v < row + kRows; ++v, place += kColumns) {
+      placeRow(u, v, before_F, &places_F_[3 * place]);
+      before_F = &places_F_[3 * (place + kColumns - 1)];
     }
   }
-  if (first == place) return;
-  for (size_t i = 0; i < first; ++i) std::copy_n(&places_F[3 * first], 3, &places_F[3 * i]);
 }
 
-size_t DepthSurface::placeRow(const Eigen::Isometry3d& X_FC, size_t column, size_t row, const float* before_F,
-                              float* places_F) const {
-  const Eigen::Vector3d across = X_FC.linear().col(0);
-  const Eigen::Vector3d ahead = y_[row] * X_FC.linear().col(1) + X_FC.linear().col(2);
+// Those before the first that is seen.
+void DepthSurface::placeUnseen() {
+  const size_t all = grid_.places();
+  size_t first = 0;
+  while (first < all && !isSeen(first)) ++first;
+  if (first == all) return;
+  for (std::vector<float>* const places_F : {&places_F_, &before_F_, &places_before_F_}) {
+    for (size_t i = 0; i < first; ++i) std::copy_n(&places_F_[3 * first], 3, &(*places_F)[3 * i]);
+  }
+}
+
+bool DepthSurface::isSeen(size_t place) const {
+  const auto [u, v] = grid_.pixel(place / Grid::kTilePixels, place % Grid::kTilePixels);
+  return !std::isnan(nearer_[v * stride_ + u]);
+}
+
+// All at once, which is vectorized, then those that are seen.
+void DepthSurface::placeRow(size_t column, size_t row, const float* before_F, float* places_F) const {
+  const Eigen::Vector3d ahead = y_[row] * X_FC_.linear().col(1) + X_FC_.linear().col(2);
+  const float* const nearer = &nearer_[row * stride_ + column];
+  std::array<std::array<float, kColumns>, 3> seen_F;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<Eigen::Index>(axis);
+    const std::array<double, 3> line_F = {X_FC_(a, 0), ahead[a], X_FC_(a, 3)};
+    for (size_t i = 0; i < kColumns; ++i)
+      seen_F[axis][i] = static_cast<float>((line_F[0] * x_[column + i] + line_F[1]) * double{nearer[i]} + line_F[2]);
+  }
   Eigen::Vector3f p_F = Eigen::Map<const Eigen::Vector3f>(before_F);
-  size_t first = kColumns;
   for (size_t i = 0; i < kColumns; ++i) {
-    const float nearer = nearer_[row * stride_ + column + i];
-    if (!std::isnan(nearer)) {
-      p_F = ((across * x_[column + i] + ahead) * double{nearer} + X_FC.translation()).cast<float>();
-      first = std::min(first, i);
-    }
+    if (!std::isnan(nearer[i])) p_F = {seen_F[0][i], seen_F[1][i], seen_F[2][i]};
     Eigen::Map<Eigen::Vector3f>(places_F + 3 * i) = p_F;
   }
-  return first;
 }
 
-void DepthSurface::findTriangles() {
-  size_t tile = 0;
-  for (size_t v = 0; v < y_.size(); v += kRows) {
-    for (size_t row = 0; row < kRows; ++row) findPairs((v + row) * stride_, &pairs_[row * stride_]);
-    for (size_t u = 0; u < x_.size(); u += kColumns) existing_[tile++] = trianglesAt(u);
-  }
+void DepthSurface::findTriangles(size_t row) {
+  for (size_t i = 0; i < kRows; ++i) findPairs((row + i) * stride_, &pairs_[i * stride_]);
+  size_t tile = row / kRows * grid_.tileColumns();
+  for (size_t u = 0; u < x_.size(); u += kColumns) existing_[tile++] = trianglesAt(u);
 }
 
 // What is compared with NaN is no neighbor.
 void DepthSurface::findPairs(size_t first, std::uint8_t* pairs) const {
-  const auto joined = [depth = &depths_[first], step = &steps_[first]](size_t a, size_t b) -> unsigned {
-    return std::abs(depth[a] - depth[b]) <= std::min(step[a], step[b]);
+  const auto joined = [depth = &depths_[first], slope = slope_, margin = margin_](size_t a, size_t b) -> unsigned {
+    const float nearer = std::min(depth[a], depth[b]);
+    return std::abs(depth[a] - depth[b]) <= slope * nearer + 2.0F * (margin[0] + margin[1] * nearer * nearer);
   };
   const size_t stride = stride_;
   const size_t count = x_.size();

@@ -27,7 +27,7 @@ struct DepthOptions {
 /// last before the robot hid it, and a pixel whose depth changes by little has moved along its ray. A larger change says that
 /// something came or went. A camera rests as long as no point that it may see moves by more than kStill in the picture.
 ///
-/// Takes a pass over the pixels each for depths, positions, triangles and motion, and allocates nothing once it is made.
+/// Reads and writes each pixel once, a row of tiles after the other, and allocates nothing once it is made.
 class DepthSurface {
  public:
   static constexpr double kStill = 1e-5;  ///< [m]; where it rests, its vertices are as far from where they are
@@ -74,18 +74,22 @@ class DepthSurface {
   void forget();
   void readRow(const std::vector<float>& depths, size_t row);
   void setDepth(size_t pixel, float depth);
-  float twiceMargin(size_t pixel) const { return steps_[pixel] - slope_ * depths_[pixel]; }
-  void hideSelf(const std::vector<SweptVolume>& bodies_F);
-  void remember();
+  float errorAt(float depth) const { return margin_[0] + margin_[1] * depth * depth; }
+  void beginSelf(const std::vector<SweptVolume>& bodies_F);
+  // The following take the first of the rows of pixels in a row of tiles.
+  void placeTiles(size_t row);
+  void hideSelf(size_t row);
+  void remember(size_t row);
+  void findMotion(size_t row, float reach);
+  void findTriangles(size_t row);
+  size_t placeOf(size_t row) const { return row * grid_.tileColumns() * kColumns; }  // first of its tiles
   void hide(size_t tile);
   bool showsSelf(const std::vector<float>& depths, std::uint32_t column, std::uint32_t row, double pixels) const;
-  void findMotion(double reach);
   void endMotions(float reach, size_t pixel, size_t place);
-  void placeVertices(const Eigen::Isometry3d& X_FC, std::vector<float>& places_F) const;
-  // Those in a row of a tile. Where nothing is seen, that of the place before; returns how many are before any is seen.
-  size_t placeRow(const Eigen::Isometry3d& X_FC, size_t column, size_t row, const float* before_F,
-                  float* places_F) const;
-  void findTriangles();
+  // Those in a row of a tile. Where nothing is seen, that of the place before.
+  void placeRow(size_t column, size_t row, const float* before_F, float* places_F) const;
+  void placeUnseen();
+  bool isSeen(size_t place) const;
   void findPairs(size_t first, std::uint8_t* pairs) const;
   std::uint64_t trianglesAt(size_t column) const;
 
@@ -99,7 +103,6 @@ class DepthSurface {
   const size_t stride_;              // of the rows of the following, which have a column and a row more than the tiles
   std::vector<float> inverse_;       // of the length of a ray up to depth 1; 0: beyond the image
   std::vector<float> depths_;        // NaN: not seen
-  std::vector<float> steps_;         // smallest difference to a neighbor's depth that is a step [m]; NaN: not seen
   std::vector<float> nearer_;        // depth less the margin [m]; NaN: not seen
   std::vector<std::uint8_t> pairs_;  // of triangles of each pixel in a row of tiles: bits 0 and 1 are set if they exist
   std::vector<float> remembered_;    // depth where a pixel last showed something else than the robot; NaN: never

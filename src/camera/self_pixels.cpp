@@ -35,46 +35,52 @@ bool mayMeet(const SweptVolume& body_F, const Eigen::Vector3d& from_F, const Eig
 
 }  // namespace
 
-void SelfPixels::find(const SeenVertices& seen, const Eigen::Isometry3d& X_FC,
-                      const std::vector<SweptVolume>& bodies_F) {
-  blocks_.measure(seen.places_F);
-  tiles_.assign(blocks_.count(), 0);
-  beyond_.resize(simd::padded(blocks_.count()));
+void SelfPixels::begin(const Eigen::Isometry3d& X_FC, const std::vector<SweptVolume>& bodies_F) {
+  X_FC_ = X_FC;
+  bodies_.clear();
   for (const SweptVolume& body_F : bodies_F) {
-    addShown(seen, planesOf(body_F));
-    addCast(seen, X_FC, body_F);
+    const PixelBounds bounds = boundsOf(X_FC.inverse() * body_F.box.X_MB, body_F.box.half_extents);
+    bodies_.push_back({body_F, planesOf(body_F), bounds});
   }
+  tiles_.assign(grid_.tiles(), 0);
   count_ = 0;
-  for (const std::uint32_t tile : tiles_) count_ += static_cast<size_t>(__builtin_popcount(tile));
 }
 
-void SelfPixels::addShown(const SeenVertices& seen, const simd::Planes& planes) {
-  simd::kernels().classifyBoxes(blocks_.arrays(), blocks_.count(), planes, beyond_.data());
+void SelfPixels::find(const SeenVertices& seen, size_t tile_row) {
+  const size_t first = tile_row * grid_.tileColumns();
+  const auto top = static_cast<std::uint32_t>(tile_row * Grid::kTileRows);
+  for (const Body& body : bodies_) {
+    const PixelBounds& bounds = body.bounds;
+    if (bounds.bottom <= top || bounds.top >= top + Grid::kTileRows) continue;
+    for (size_t u = bounds.left / Grid::kTileColumns; u * Grid::kTileColumns < bounds.right; ++u)
+      addShown(seen, body, first + u);
+    const std::uint32_t bottom = std::min(bounds.bottom, top + Grid::kTileRows);
+    for (std::uint32_t v = std::max(bounds.top, top); v < bottom; ++v) addCast(seen, body, v);
+  }
+  for (size_t tile = first; tile < first + grid_.tileColumns(); ++tile)
+    count_ += static_cast<size_t>(__builtin_popcount(tiles_[tile]));
+}
+
+void SelfPixels::addShown(const SeenVertices& seen, const Body& body, size_t tile) {
   std::array<std::uint16_t, simd::kBlock> bits;
-  for (size_t tile = 0; tile < blocks_.count(); ++tile) {
-    if (beyond_[tile] != 0) continue;
-    withBlock(seen.places_F, tile,
-              [&](const float* vertices) { simd::kernels().classifyBlock(vertices, planes, bits.data()); });
-    for (std::uint32_t i = 0; i < simd::kBlock; ++i) {
-      if (bits[i] != simd::kInsideAll) continue;
-      const auto [u, v] = grid_.pixel(tile, i);
-      if (!std::isnan(seen.depths[v * seen.stride + u])) tiles_[tile] |= std::uint32_t{1} << i;
-    }
+  withBlock(seen.places_F, tile,
+            [&](const float* vertices) { simd::kernels().classifyBlock(vertices, body.planes, bits.data()); });
+  for (std::uint32_t i = 0; i < simd::kBlock; ++i) {
+    if (bits[i] != simd::kInsideAll) continue;
+    const auto [u, v] = grid_.pixel(tile, i);
+    if (!std::isnan(seen.depths[v * seen.stride + u])) tiles_[tile] |= std::uint32_t{1} << i;
   }
 }
 
 // Between the depths of the body, a ray that comes to it is not beyond one plane.
-void SelfPixels::addCast(const SeenVertices& seen, const Eigen::Isometry3d& X_FC, const SweptVolume& body_F) {
-  const Eigen::Vector3d& p_FC = X_FC.translation();
-  const PixelBounds bounds = boundsOf(X_FC.inverse() * body_F.box.X_MB, body_F.box.half_extents);
-  for (std::uint32_t v = bounds.top; v < bounds.bottom; ++v) {
-    for (std::uint32_t u = bounds.left; u < bounds.right; ++u) {
-      if (!std::isnan(seen.depths[v * seen.stride + u])) continue;
-      const Eigen::Vector3d ray_F =
-          X_FC.linear() * Eigen::Vector3d((u - camera_.cx) / camera_.fx, (v - camera_.cy) / camera_.fy, 1.0);
-      if (!mayMeet(body_F, p_FC + bounds.nearest * ray_F, p_FC + bounds.farthest * ray_F)) continue;
-      add(grid_.place(u, v));
-    }
+void SelfPixels::addCast(const SeenVertices& seen, const Body& body, std::uint32_t row) {
+  const Eigen::Vector3d& p_FC = X_FC_.translation();
+  for (std::uint32_t u = body.bounds.left; u < body.bounds.right; ++u) {
+    if (!std::isnan(seen.depths[row * seen.stride + u])) continue;
+    const Eigen::Vector3d ray_F =
+        X_FC_.linear() * Eigen::Vector3d((u - camera_.cx) / camera_.fx, (row - camera_.cy) / camera_.fy, 1.0);
+    if (!mayMeet(body.volume_F, p_FC + body.bounds.nearest * ray_F, p_FC + body.bounds.farthest * ray_F)) continue;
+    add(grid_.place(u, row));
   }
 }
 

@@ -25,10 +25,13 @@ class SelfPixels {
  public:
   SelfPixels(const Grid& grid, const Pinhole& camera) : grid_(grid), camera_(camera), tiles_(grid.tiles(), 0) {}
 
-  /// Finds the pixels. Tests the boxes of tiles first.
+  /// Begins an image: no pixel is found yet.
   /// @param X_FC      pose of the camera [m]
   /// @param bodies_F  convex volumes around the bodies, as much larger as what is near to them counts as the robot
-  void find(const SeenVertices& seen, const Eigen::Isometry3d& X_FC, const std::vector<SweptVolume>& bodies_F);
+  void begin(const Eigen::Isometry3d& X_FC, const std::vector<SweptVolume>& bodies_F);
+
+  /// Finds the pixels in a row of tiles, where a body may be in the picture.
+  void find(const SeenVertices& seen, size_t tile_row);
 
   /// Returns for each tile of the grid a bit for each of its pixels.
   const std::vector<std::uint32_t>& tiles() const { return tiles_; }
@@ -46,15 +49,21 @@ class SelfPixels {
     double nearest = 0.0, farthest = 0.0;  // depths [m]
   };
 
-  void addShown(const SeenVertices& seen, const simd::Planes& planes);
-  void addCast(const SeenVertices& seen, const Eigen::Isometry3d& X_FC, const SweptVolume& body_F);
+  struct Body {
+    SweptVolume volume_F;
+    simd::Planes planes;
+    PixelBounds bounds;
+  };
+
+  void addShown(const SeenVertices& seen, const Body& body, size_t tile);
+  void addCast(const SeenVertices& seen, const Body& body, std::uint32_t row);
   PixelBounds boundsOf(const Eigen::Isometry3d& X_CB, const Eigen::Vector3d& half_extents) const;
   void add(std::uint32_t place) { tiles_[place / Grid::kTilePixels] |= std::uint32_t{1} << place % Grid::kTilePixels; }
 
   const Grid grid_;
   const Pinhole camera_;
-  VertexBlocks blocks_;
-  std::vector<std::uint16_t> beyond_;  // of each tile, planes
+  Eigen::Isometry3d X_FC_ = Eigen::Isometry3d::Identity();
+  std::vector<Body> bodies_;
   std::vector<std::uint32_t> tiles_;
   size_t count_ = 0;
 };
