@@ -35,8 +35,8 @@ DepthSurface::DepthSurface(const Grid& grid, const Pinhole& camera, const DepthO
     : grid_(grid),
       camera_(camera),
       options_(options),
-      margin_{static_cast<float>(options.margin[0]), static_cast<float>(options.margin[1])},
-      slope_(static_cast<float>(kSteepest * std::hypot(1.0 / camera.fx, 1.0 / camera.fy))),
+      tolerance_{{static_cast<float>(options.margin[0]), static_cast<float>(options.margin[1])},
+                 static_cast<float>(kSteepest * std::hypot(1.0 / camera.fx, 1.0 / camera.fy))},
       stride_(size_t{grid.tileColumns()} * kColumns + 1),
       inverse_((size_t{grid.tileRows()} * kRows + 1) * stride_, 0.0F),
       depths_(inverse_.size(), kNothing),
@@ -49,7 +49,8 @@ DepthSurface::DepthSurface(const Grid& grid, const Pinhole& camera, const DepthO
       places_F_(places_before_F_),
       before_F_(places_before_F_),
       existing_(grid.tiles(), 0),
-      self_(grid, camera) {
+      self_(grid, camera),
+      gone_(grid, tolerance_) {
   checkCamera(camera);
   checkOptions(options);
   for (size_t u = 0; u < grid.tileColumns() * kColumns; ++u)
@@ -79,6 +80,7 @@ void DepthSurface::take(const std::vector<float>& depths, const Eigen::Isometry3
   }
   findTriangles(y_.size() - kRows);
   placeUnseen();
+  forgetGone();
   nearer_before_.swap(nearer_);
 }
 
@@ -105,15 +107,14 @@ void DepthSurface::forget() {
 void DepthSurface::readRow(const std::vector<float>& depths, size_t row) {
   const auto nearest = static_cast<float>(options_.nearest);
   const auto farthest = static_cast<float>(options_.farthest);
-  const std::array<float, 2> margin = margin_;
+  const DepthTolerance tolerance = tolerance_;
   const size_t from = row * grid_.width();
   const size_t to = row * stride_;
   for (size_t i = 0; i < grid_.width(); ++i) {
     const bool is_seen = depths[from + i] >= nearest && depths[from + i] <= farthest;
     const float depth = is_seen ? depths[from + i] : kNothing;
-    const float error = margin[0] + margin[1] * depth * depth;
     depths_[to + i] = depth;
-    nearer_[to + i] = std::max(depth - error * inverse_[to + i], 0.0F);
+    nearer_[to + i] = std::max(depth - tolerance.errorAt(depth) * inverse_[to + i], 0.0F);
   }
   for (size_t i = 0; i < grid_.width(); ++i)
     remembered_[to + i] = depths[from + i] > farthest ? kNothing : remembered_[to + i];
@@ -140,11 +141,11 @@ void DepthSurface::hideSelf(size_t row) {
 // What only one image shows may be a fault of it, as a pixel between an edge and what is behind: it is not remembered in place of
 // something else. Members are copied as in readRow().
 void DepthSurface::remember(size_t row) {
-  const std::array<float, 2> margin = margin_;
+  const DepthTolerance tolerance = tolerance_;
   const size_t end = (row + kRows) * stride_;
   std::uint32_t seen = 0;
   for (size_t i = row * stride_; i < end; ++i) {
-    const float allowed = 2.0F * (margin[0] + margin[1] * depths_[i] * depths_[i]);
+    const float allowed = 2.0F * tolerance.errorAt(depths_[i]);
     const float kept = std::isnan(remembered_[i]) ? depths_[i] : remembered_[i];
     remembered_[i] = std::abs(nearer_[i] - nearer_before_[i]) <= allowed ? depths_[i] : kept;
     seen += std::isnan(depths_[i]) ? 0U : 1U;
@@ -160,7 +161,7 @@ void DepthSurface::hide(size_t tile) {
   for (std::uint32_t left = self_.tiles()[tile]; left != 0; left &= left - 1) {
     const auto [u, v] = grid_.pixel(tile, static_cast<std::uint32_t>(__builtin_ctz(left)));
     const size_t pixel = v * stride_ + u;
-    const float free_to = depths_[pixel] - 2.0F * errorAt(depths_[pixel]);  // the robot is seen there
+    const float free_to = depths_[pixel] - 2.0F * tolerance_.errorAt(depths_[pixel]);  // the robot is seen there
     if (remembered_[pixel] < free_to) remembered_[pixel] = farthest_[pixel];
     setDepth(pixel, remembered_[pixel] < free_to ? kNothing : remembered_[pixel]);
   }
@@ -174,7 +175,15 @@ void DepthSurface::hide(size_t tile) {
 
 void DepthSurface::setDepth(size_t pixel, float depth) {
   depths_[pixel] = depth;
-  nearer_[pixel] = std::max(depth - errorAt(depth) * inverse_[pixel], 0.0F);
+  nearer_[pixel] = std::max(depth - tolerance_.errorAt(depth) * inverse_[pixel], 0.0F);
+}
+
+// From the next image on. Behind it is what was seen there before, or nothing that is known.
+void DepthSurface::forgetGone() {
+  for (const size_t pixel : gone_.find(self_, {nearer_before_, nearer_, remembered_, stride_})) {
+    const bool known = farthest_[pixel] > remembered_[pixel] + 2.0F * tolerance_.errorAt(remembered_[pixel]);
+    remembered_[pixel] = known ? farthest_[pixel] : kNothing;
+  }
 }
 
 // As a rule all go on: what does not is exchanged.
@@ -291,9 +300,8 @@ void DepthSurface::findTriangles(size_t row) {
 
 // What is compared with NaN is no neighbor.
 void DepthSurface::findPairs(size_t first, std::uint8_t* pairs) const {
-  const auto joined = [depth = &depths_[first], slope = slope_, margin = margin_](size_t a, size_t b) -> unsigned {
-    const float nearer = std::min(depth[a], depth[b]);
-    return std::abs(depth[a] - depth[b]) <= slope * nearer + 2.0F * (margin[0] + margin[1] * nearer * nearer);
+  const auto joined = [depth = &depths_[first], tolerance = tolerance_](size_t a, size_t b) -> unsigned {
+    return tolerance.joined(depth[a], depth[b]);
   };
   const size_t stride = stride_;
   const size_t count = x_.size();

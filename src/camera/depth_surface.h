@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "camera/depth_tolerance.h"
+#include "camera/gone_pixels.h"
 #include "camera/pinhole.h"
 #include "camera/self_pixels.h"
 #include "sweep_guard/geometry/grid.h"
@@ -24,8 +26,9 @@ struct DepthOptions {
 /// a surface that one sees at less than 6 degrees.
 ///
 /// While the camera rests, a pixel that shows the robot itself, or that has no depth where the robot is, is a vertex where it was
-/// last before the robot hid it, and a pixel whose depth changes by little has moved along its ray. A larger change says that
-/// something came or went. A camera rests as long as no point that it may see moves by more than kStill in the picture.
+/// last before the robot hid it, until that has gone (see GonePixels). A pixel whose depth changes by little has moved along its ray.
+/// A larger change says that something came or went. A camera rests as long as no point that it may see moves by more than kStill in
+/// the picture.
 ///
 /// Reads and writes each pixel once, a row of tiles after the other, and allocates nothing once it is made.
 class DepthSurface {
@@ -74,7 +77,6 @@ class DepthSurface {
   void forget();
   void readRow(const std::vector<float>& depths, size_t row);
   void setDepth(size_t pixel, float depth);
-  float errorAt(float depth) const { return margin_[0] + margin_[1] * depth * depth; }
   void beginSelf(const std::vector<SweptVolume>& bodies_F);
   // The following take the first of the rows of pixels in a row of tiles.
   void placeTiles(size_t row);
@@ -89,6 +91,7 @@ class DepthSurface {
   // Those in a row of a tile. Where nothing is seen, that of the place before.
   void placeRow(size_t column, size_t row, const float* before_F, float* places_F) const;
   void placeUnseen();
+  void forgetGone();
   bool isSeen(size_t place) const;
   void findPairs(size_t first, std::uint8_t* pairs) const;
   std::uint64_t trianglesAt(size_t column) const;
@@ -96,8 +99,7 @@ class DepthSurface {
   const Grid grid_;
   const Pinhole camera_;
   const DepthOptions options_;
-  const std::array<float, 2> margin_;
-  const float slope_;                // largest difference of depths between neighbors, by depth
+  const DepthTolerance tolerance_;
   std::vector<double> x_;            // of a ray at depth 1, by column of the tiles
   std::vector<double> y_;            // by row
   const size_t stride_;              // of the rows of the following, which have a column and a row more than the tiles
@@ -115,6 +117,7 @@ class DepthSurface {
   Eigen::Isometry3d X_FC_ = Eigen::Isometry3d::Identity();
   bool rests_ = false;
   SelfPixels self_;
+  GonePixels gone_;
   std::vector<SweptVolume> bodies_F_;  // with the margin
   size_t seen_ = 0;
 };

@@ -111,19 +111,32 @@ TEST_F(RenderedSceneTest, ATipThatHoversIsClearAndItsTouchIsFound) {
   }
 }
 
-// A hand of 80 mm that waits beside the tool.
-TEST_F(RenderedSceneTest, AHandThatTheToolMovesIntoIsMetWithinOneImage) {
+// A hand of 80 mm waits beside the tool until it leaves at 2 m/s.
+class HandTest : public RenderedSceneTest {
+ protected:
+  void runWithHand(double seconds, double leaves) {
+    const auto pose = [](double at) {
+      return toolAt({0.0, -std::clamp(0.1 * (at - 1.0), 0.0, 0.07), 0.15}, 0.0);
+    };
+    run(seconds, setup(0.03), pose, [=](double at) {
+      const double y = at < 0.3 ? -0.8 : -0.1 - kRadius - 2.0 * std::max(0.0, at - leaves);
+      return std::vector<Solid>{boxOf({-0.04, y - 0.04, 0.11}, {0.04, y + 0.04, 0.19})};
+    });
+    ASSERT_FALSE(contacts_.empty());
+  }
+};
+
+TEST_F(HandTest, AHandThatTheToolMovesIntoIsMetWithinOneImage) {
   const double touch = 1.0 + 0.06 / 0.1;
-  const auto pose = [](double seconds) {
-    return toolAt({0.0, -std::clamp(0.1 * (seconds - 1.0), 0.0, 0.07), 0.15}, 0.0);
-  };
-  run(2.0, setup(0.03), pose, [](double seconds) {
-    const double y = seconds < 0.3 ? -0.8 : -0.1 - kRadius;
-    return std::vector<Solid>{boxOf({-0.04, y - 0.04, 0.11}, {0.04, y + 0.04, 0.19})};
-  });
-  ASSERT_FALSE(contacts_.empty());
+  runWithHand(2.0, 10.0);
   EXPECT_GT(contacts_.front(), touch - 0.1);
   EXPECT_LT(contacts_.front(), touch + 0.034);
+}
+
+TEST_F(HandTest, AHandThatLeavesIsNoContactAfterThreeImagesThoughTheToolHidesIt) {
+  runWithHand(3.0, 2.0);
+  EXPECT_GT(contacts_.back(), 1.95);
+  EXPECT_LT(contacts_.back(), 2.0 + 0.105);
 }
 
 }  // namespace
