@@ -277,7 +277,7 @@ TEST(ForcePermissionTest, ASilentPosePlanesOrDeviceFadeTheForceOutFrom50To70Mill
     const ForcePermission pose =
         decide([&](auto& inputs, auto& /*planes*/) { inputs.pose->timestamps = silent_since; });
     EXPECT_NEAR(pose.gain, gain, 1e-9) << silent;
-    const ForcePermission planes = decide([&](auto& /*inputs*/, auto& planes) { planes.timestamps = silent_since; });
+    const ForcePermission planes = decide([&](auto& /*inputs*/, auto& set) { set.timestamps = silent_since; });
     EXPECT_NEAR(planes.gain, gain, 1e-9) << silent;
     const ForcePermission device = decideForce(fresh(freshPlanes()), silent_since, kNow, {});
     EXPECT_NEAR(device.gain, gain, 1e-9) << silent;
