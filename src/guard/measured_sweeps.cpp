@@ -153,9 +153,9 @@ void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<
     Detector& detector = setup.detectors.of(*workpiece);
     const ContactPolicy contact(setup.tool, *workpiece, &setup.allowed, &setup.intentions);
     while (nextMotion(setup, object.result, passage)) {
-      for (size_t i = passage.isNew() ? 0 : meshes_.size() - 1; i < meshes_.size(); ++i) {  // only the last is new
+      for (const MovingMesh& mesh : meshes_) {
         SweepResult& result =
-            sweep_checker_.check(detector, {setup.tool, sub_motions_M_, meshes_[i], setup.options, cache_, contact});
+            sweep_checker_.check(detector, {setup.tool, sub_motions_M_, mesh, setup.options, cache_, contact});
         keep(passage, report.end, result, object);
       }
     }
