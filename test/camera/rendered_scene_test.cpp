@@ -115,9 +115,7 @@ TEST_F(RenderedSceneTest, ATipThatHoversIsClearAndItsTouchIsFound) {
 class HandTest : public RenderedSceneTest {
  protected:
   void runWithHand(double seconds, double leaves) {
-    const auto pose = [](double at) {
-      return toolAt({0.0, -std::clamp(0.1 * (at - 1.0), 0.0, 0.07), 0.15}, 0.0);
-    };
+    const auto pose = [](double at) { return toolAt({0.0, -std::clamp(0.1 * (at - 1.0), 0.0, 0.07), 0.15}, 0.0); };
     run(seconds, setup(0.03), pose, [=](double at) {
       const double y = at < 0.3 ? -0.8 : -0.1 - kRadius - 2.0 * std::max(0.0, at - leaves);
       return std::vector<Solid>{boxOf({-0.04, y - 0.04, 0.11}, {0.04, y + 0.04, 0.19})};
