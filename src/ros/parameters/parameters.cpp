@@ -1,6 +1,5 @@
 // The table of the guard's parameters, in the order of doc/interface.md and config/sweep_guard.yaml.
 #include "ros/parameters/parameters.h"
-#include "ros/parameters/duration.h"
 
 #include <ros/console.h>
 
@@ -11,6 +10,7 @@
 #include "common/floating_point.h"
 #include "common/number_text.h"
 #include "ros/output/markers.h"
+#include "ros/parameters/duration.h"
 #include "ros/parameters/parameter_changes.h"
 #include "ros/parameters/tool_parameters.h"
 #include "ros/parameters/workpiece_parameters.h"
