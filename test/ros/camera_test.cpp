@@ -174,6 +174,25 @@ TEST_F(CameraTest, TheToolInThePictureIsNoWorkpiece) {
   EXPECT_EQ(valueOf(status, "detector"), "halfspace, whatever `detector` says");
 }
 
+// At half a meter per second, out of the picture. At its height that ends 0.37 m beside the middle.
+TEST_F(CameraTest, WhereTheCameraDoesNotSeeTheToolGoingItIsUnknownAndNotReflex) {
+  const Warning before = stepUntil(table, kOverTable, isClear);
+  EXPECT_EQ(before.seen, 1.0);
+  Warning warning = before;
+  int mm = 0;
+  for (; mm < 370 && (warning.reasons & Warning::NOT_SEEN) == 0; mm += 5) {
+    step(imageOf(table, probe().time()), {0.001 * mm, 0.0, kOverTable.z()});
+    warning = probe().warnings().back();
+  }
+  EXPECT_LT(mm, 370) << "it has left before anything was said: " << warning.text;
+  EXPECT_EQ(warning.level, Warning::UNKNOWN) << warning.text;
+  EXPECT_LT(warning.seen, 0.2);
+  EXPECT_FALSE(warning.reflex) << warning.text;
+  EXPECT_TRUE(warning.considered);
+  EXPECT_TRUE(has(warning.text, "cameras see")) << warning.text;
+  stepUntil(table, kOverTable, isClear);
+}
+
 TEST_F(CameraTest, AnImageThatCannotBeReadIsUnknownInWordsUntilTheNext) {
   const auto refused = [&](const std::string& words, const std::function<void(sensor_msgs::Image&)>& spoil) {
     stepUntil(table, kOverTable, isClear);
