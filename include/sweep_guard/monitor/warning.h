@@ -39,7 +39,7 @@ struct WarningLimits {
   WarningThresholds thresholds = {};
   Duration acknowledge_time = std::chrono::seconds(10);  ///< longest time that a warning stays acknowledged; >= 0
   Rules<Duration> mesh_timeouts = {};                    ///< of some workpieces, in place of `mesh_timeout`
-  double min_seen = 0.13;  ///< least share of each step of the predicted path that cameras must have seen, in (0, 1]
+  double min_seen = 0.15;  ///< least share of each step of the predicted path that cameras must have seen, in (0, 1]
 
   /// Returns the age above which a workpiece is stale.
   Duration meshTimeout(const std::string& id) const {
