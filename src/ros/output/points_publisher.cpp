@@ -3,7 +3,9 @@
 #include <sensor_msgs/PointCloud2.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
 
+#include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 
@@ -53,9 +55,10 @@ void PointsPublisher::publish(const sweep_guard_core::DepthSurface& surface, con
                               sweep_guard_core::Time stamp) {
   if (publisher_.getNumSubscribers() == 0) return;
   const auto parameters = parameters_.get();
-  const auto now = std::chrono::steady_clock::now();
-  if (now - published_ < sweep_guard_core::fromSeconds(1.0 / parameters->marker_rate)) return;
-  published_ = now;
+  const auto period = sweep_guard_core::fromSeconds(1.0 / parameters->marker_rate);
+  const sweep_guard_core::SteadyTime now = std::chrono::steady_clock::now();
+  if (now < due_) return;
+  due_ = std::max(due_ + period, now);
   sensor_msgs::PointCloud2 cloud = cloudOf(surface.points(depths, kMaxPixels));
   cloud.header.frame_id = parameters->fixed_frame;
   cloud.header.stamp = toMsg(stamp);

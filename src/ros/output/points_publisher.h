@@ -26,7 +26,7 @@ class PointsPublisher {
  private:
   const LiveParameters& parameters_;
   ros::Publisher publisher_;
-  sweep_guard_core::SteadyTime published_;
+  sweep_guard_core::SteadyTime due_;
 };
 
 }  // namespace sweep_guard_ros
