@@ -182,7 +182,7 @@ TEST_F(CameraTest, TheToolInThePictureIsNoWorkpiece) {
 // The colors of doc/rviz.md.
 constexpr std::uint32_t kSeen = 0xD6CCBD;
 constexpr std::uint32_t kRemembered = 0x339999;
-constexpr std::uint32_t kSelf = 0x5980E5;
+constexpr std::uint32_t kSelf = 0x5980E6;
 
 // The newest points that rviz would draw.
 class CloudListener {
