@@ -27,6 +27,8 @@ void checkOptions(const DepthOptions& options) {
         "the range of a camera begins above 0 and ends above its begin [m]");
   check(options.margin[0] >= 0.0 && options.margin[1] >= 0.0 && std::isfinite(options.margin[0] + options.margin[1]),
         "the margin of a camera is at least 0 and finite");
+  check(options.surface_speed >= 0.0 && options.remember >= 0.0 && std::isfinite(options.surface_speed),
+        "surface_speed and remember of a camera are at least 0, and surface_speed is finite");
 }
 
 }  // namespace
@@ -50,7 +52,8 @@ DepthSurface::DepthSurface(const Grid& grid, const Pinhole& camera, const DepthO
       before_F_(places_before_F_),
       existing_(grid.tiles(), 0),
       self_(grid, camera),
-      gone_(grid, tolerance_) {
+      gone_(grid, tolerance_),
+      free_(grid, camera, stride_, options.remember) {
   checkCamera(camera);
   checkOptions(options);
   for (size_t u = 0; u < grid.tileColumns() * kColumns; ++u)
@@ -63,10 +66,12 @@ DepthSurface::DepthSurface(const Grid& grid, const Pinhole& camera, const DepthO
 }
 
 // A row of tiles goes through all steps while the processor's cache holds it. Its last triangles reach into the next one.
-void DepthSurface::take(const std::vector<float>& depths, const Eigen::Isometry3d& X_FC, double reach,
+void DepthSurface::take(const std::vector<float>& depths, const Eigen::Isometry3d& X_FC, double since,
                         const std::vector<SweptVolume>& bodies_F) {
   assert(depths.size() == size_t{grid_.width()} * grid_.height());
+  const auto reach = static_cast<float>(options_.surface_speed * since);
   findRest(X_FC);
+  free_.begin(X_FC_, rests_, since);
   before_F_.swap(places_before_F_);
   beginSelf(bodies_F);
   seen_ = hidden_ = 0;
@@ -75,13 +80,14 @@ void DepthSurface::take(const std::vector<float>& depths, const Eigen::Isometry3
     placeTiles(row);
     hideSelf(row);
     remember(row);
-    findMotion(row, static_cast<float>(reach));
+    findMotion(row, reach);
     if (row > 0) findTriangles(row - kRows);
   }
   findTriangles(y_.size() - kRows);
   placeUnseen();
   forgetGone();
   nearer_before_.swap(nearer_);
+  free_.end(self_);
 }
 
 // Transforms that are interpolated differ in their last digits.
@@ -116,6 +122,8 @@ void DepthSurface::readRow(const std::vector<float>& depths, size_t row) {
     depths_[to + i] = depth;
     nearer_[to + i] = std::max(depth - tolerance.errorAt(depth) * inverse_[to + i], 0.0F);
   }
+  float* const free = free_.row(row);
+  for (size_t i = 0; i < grid_.width(); ++i) free[i] = depths[from + i] > farthest ? farthest : nearer_[to + i];
   for (size_t i = 0; i < grid_.width(); ++i)
     remembered_[to + i] = depths[from + i] > farthest ? kNothing : remembered_[to + i];
 }
@@ -159,8 +167,10 @@ void DepthSurface::remember(size_t row) {
 
 void DepthSurface::hide(size_t tile) {
   for (std::uint32_t left = self_.tiles()[tile]; left != 0; left &= left - 1) {
-    const auto [u, v] = grid_.pixel(tile, static_cast<std::uint32_t>(__builtin_ctz(left)));
+    const auto bit = static_cast<std::uint32_t>(__builtin_ctz(left));
+    const auto [u, v] = grid_.pixel(tile, bit);
     const size_t pixel = v * stride_ + u;
+    free_.keep(static_cast<std::uint32_t>(tile) * Grid::kTilePixels + bit, pixel);
     const float free_to = depths_[pixel] - 2.0F * tolerance_.errorAt(depths_[pixel]);  // the robot is seen there
     if (remembered_[pixel] < free_to) remembered_[pixel] = farthest_[pixel];
     setDepth(pixel, remembered_[pixel] < free_to ? kNothing : remembered_[pixel]);

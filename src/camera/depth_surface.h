@@ -3,9 +3,11 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "camera/depth_tolerance.h"
+#include "camera/free_memory.h"
 #include "camera/gone_pixels.h"
 #include "camera/picture_point.h"
 #include "camera/pinhole.h"
@@ -20,6 +22,8 @@ struct DepthOptions {
   double farthest = 4.0;  ///< largest [m], > nearest
   /// A surface counts as nearer to the camera by margin[0] + margin[1] z^2, z its depth: the error of the camera [m], [1/m], >= 0.
   std::array<double, 2> margin = {0.005, 0.003};
+  double surface_speed = 1.0;  ///< with which what is seen may move along a ray [m/s], >= 0
+  double remember = 2.0;       ///< what was free when the robot came before it counts as free for so long [s], >= 0
 };
 
 /// The surface that a depth camera sees, from image to image. A pixel without a depth is no vertex: no triangle at it exists. Nor does
@@ -42,9 +46,9 @@ class DepthSurface {
   /// Takes an image.
   /// @param depths  depth z of each pixel [m], row by row; NaN, infinite, or out of range: not seen
   /// @param X_FC    pose of the camera in the frame F of the surface [m]
-  /// @param reach   largest distance by which a pixel moves along its ray from the image before [m], >= 0
+  /// @param since   time since the image before [s], >= 0
   /// @param bodies_F  volumes around the bodies of the robot, see SelfPixels
-  void take(const std::vector<float>& depths, const Eigen::Isometry3d& X_FC, double reach = 0.0,
+  void take(const std::vector<float>& depths, const Eigen::Isometry3d& X_FC, double since = 0.0,
             const std::vector<SweptVolume>& bodies_F = {});
 
   /// Returns the vertices at their places: x0 y0 z0 x1 ... in F [m]. Where nothing is seen, that of the place before, so
@@ -54,6 +58,9 @@ class DepthSurface {
   std::vector<float>& before_F() { return before_F_; }
   /// Returns for each cluster the bits of its triangles that exist; the same.
   std::vector<std::uint64_t>& existing() { return existing_; }
+  /// Returns what the newest image shows to be free, less the margin. While the camera rests, also what it showed to be free before
+  /// the robot hid it. Null before the first image.
+  std::shared_ptr<const FreeSpace> freeSpace() const { return free_.newest(); }
   size_t seen() const { return seen_; }          ///< pixels of the newest image that are vertices
   size_t self() const { return self_.count(); }  ///< pixels of the newest image that the robot hides
   size_t hidden() const { return hidden_; }      ///< those of them that are vertices: where it was seen last
@@ -126,6 +133,7 @@ class DepthSurface {
   SelfPixels self_;
   GonePixels gone_;
   std::vector<SweptVolume> bodies_F_;  // with the margin
+  FreeMemory free_;
   size_t seen_ = 0;
   size_t hidden_ = 0;
 };

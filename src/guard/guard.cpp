@@ -147,8 +147,11 @@ void Guard::exchange(GuardChange& change) {
   for (size_t i = 0; i < bodies_.size(); ++i) {
     GuardedBody& body = *bodies_[i];
     if (change.detector || !change.bodies.empty()) body.sweeps.forgetContacts();
-    if (!change.bodies.empty()) std::swap(body.tool, change.bodies[i]);
-    if (!change.bodies.empty()) body.touches.clear();
+    if (!change.bodies.empty()) {
+      std::swap(body.tool, change.bodies[i]);
+      body.points_B = pointsWithin(body.tool);
+      body.touches.clear();
+    }
     body.running = std::make_unique<BodyPrediction>(options_);
   }
   if (change.predictor) {

@@ -153,6 +153,16 @@ void Guard::Run::finish() {
   size_t volumes = 0;
   for (const PredictedObject& object : prediction_->objects) volumes = std::max(volumes, object.volumes_tested);
   guard_.budget_->spentOnPredicted(spent_, volumes);
+  prediction_->seen = seenShare();
+}
+
+std::optional<double> Guard::Run::seenShare() {
+  if (motion_.path.empty() || !seen_.begin(*workpieces_, motion_.from)) return {};
+  for (size_t i = 0; i < order_.size(); ++i) {
+    const GuardedBody& body = *guard_.bodies_[i];
+    seen_.add(body.tool, body.points_B, motion_.from.bodies[i].X_WB, motion_.pathOf(i));
+  }
+  return seen_.share();
 }
 
 }  // namespace sweep_guard_core

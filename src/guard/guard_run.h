@@ -1,9 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "guard/predicted_path_request.h"
+#include "guard/seen_share.h"
 #include "sweep_guard/guard/guard.h"
 
 namespace sweep_guard_core {
@@ -28,6 +30,7 @@ class Guard::Run {
   void beginBody();
   void goOn();
   void finish();
+  std::optional<double> seenShare();
   Duration spent() const;
 
   Guard& guard_;
@@ -41,6 +44,7 @@ class Guard::Run {
   std::vector<size_t> order_;     // of the bodies
   std::vector<double> nearness_;  // of the bodies [standard deviations]
   size_t considered_sweeps_ = 0;
+  SeenShare seen_;
   size_t next_;       // place in the order of the body under test
   Duration spent_{};  // before the running step
   SteadyTime step_begin_;

@@ -7,6 +7,7 @@
 
 #include "guard/body_prediction.h"
 #include "guard/measured_sweeps.h"
+#include "guard/seen_share.h"
 #include "guard/united_bodies.h"
 
 namespace sweep_guard_core {
@@ -14,9 +15,10 @@ namespace sweep_guard_core {
 /// One rigid body of the guarded tool, and what Guard keeps for it.
 struct GuardedBody {
   GuardedBody(Tool tool_B, const GuardOptions& options)
-      : tool(std::move(tool_B)), running(std::make_unique<BodyPrediction>(options)) {}
+      : tool(std::move(tool_B)), points_B(pointsWithin(tool)), running(std::make_unique<BodyPrediction>(options)) {}
 
-  Tool tool;  ///< in the frame of the body
+  Tool tool;                              ///< in the frame of the body
+  std::vector<Eigen::Vector3d> points_B;  ///< within it [m]
   MeasuredSweeps sweeps;
   IntendedTouches touches;
   std::unique_ptr<BodyPrediction> running;

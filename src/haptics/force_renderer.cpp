@@ -48,7 +48,7 @@ ForcePermission decideForce(const MotionInputs& inputs, const std::optional<Time
                             const ForceOptions& options) {
   if (!inputs.warning) return {0.0, PermissionCause::kNoWarning};
   if (now.steady - inputs.warning->received > options.warning_silence) return {0.0, PermissionCause::kWarningSilent};
-  if (inputs.warning->level == WarningLevel::kUnknown) return {0.0, PermissionCause::kUnknown};
+  if (!inputs.warning->knows()) return {0.0, PermissionCause::kUnknown};
   if (!inputs.pose) return {0.0, PermissionCause::kNoPose};
   if (now.stamp - inputs.pose->timestamps.stamp > options.pose_age) return {0.0, PermissionCause::kOldPose};
   if (!inputs.planes) return {0.0, PermissionCause::kNoPlanes};

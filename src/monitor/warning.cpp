@@ -128,6 +128,7 @@ void Warning::clear() {
   held_since.reset();
   acknowledged = false;
   intended = false;
+  seen.reset();
   pose_stamp = {};
   covered_until = {};
 }
@@ -140,6 +141,7 @@ void computeWarning(const WarningInputs& inputs, const Instant& now, const Warni
   warning.level = (warning.reasons & ~kDegraded) == 0 ? WarningLevel::kClear : WarningLevel::kUnknown;
   if (inputs.pose) warning.pose_stamp = inputs.pose->stamp;
   warning.covered_until = inputs.covered_until;
+  warning.seen = inputs.seen;
   const size_t length = warning.text.size();
   warn(inputs, now, limits, warning);
   if (inputs.contact && (inputs.contact->lasting || limits.hold(now.steady - inputs.contact->found))) {

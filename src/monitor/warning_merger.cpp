@@ -19,7 +19,7 @@ int rank(WarningLevel level) {
 }
 
 template <typename Value>
-std::optional<Value> earlier(const std::optional<Value>& a, const std::optional<Value>& b) {
+std::optional<Value> smaller(const std::optional<Value>& a, const std::optional<Value>& b) {
   return a && b ? std::min(*a, *b) : a ? a : b;
 }
 
@@ -77,10 +77,11 @@ MergedWarning WarningMerger::merged(const Instant& now) const {
 void WarningMerger::addTo(MergedWarning& all, size_t guard) const {
   const HeardWarning& warning = *newest_[guard];
   all.reasons |= warning.reasons;
-  all.time_to_collision = earlier(all.time_to_collision, warning.time_to_collision);
+  all.time_to_collision = smaller(all.time_to_collision, warning.time_to_collision);
   all.covered_until = std::min(all.covered_until, warning.covered_until);
   all.valid_until = std::min(all.valid_until, warning.valid_until);
   all.intended = all.intended || warning.intended;
+  all.seen = smaller(all.seen, warning.seen);
   if (all.leader && !leads(guard, *all.leader)) return;
   all.leader = guard;
   all.level = warning.level;

@@ -20,6 +20,7 @@ struct HeardWarning {
   bool held = false;
   bool acknowledged = false;
   bool intended = false;
+  std::optional<double> seen = {};
   std::string text = {};
   Instant received = {};
 };
@@ -33,6 +34,7 @@ struct MergedWarning {
   Time valid_until = {};
   bool acknowledged = false;
   bool intended = false;
+  std::optional<double> seen = {};  ///< the smallest
   std::string text = {};
   /// Index of the guard whose warning is shown. Empty: only silent guards make the level.
   std::optional<size_t> leader = {};
@@ -57,7 +59,7 @@ class WarningMerger {
 
   /// Returns the warning of all guards: the reasons of all, kNotCovered for one that
   /// is silent; the earliest times, `valid_until` of the guards that count and at most kWarningValid from now, and
-  /// `covered_until` 0 if one is silent; `acknowledged` of the leader, `intended` of any; the level, and what each guard says
+  /// `covered_until` 0 if one is silent; `acknowledged` of the leader, `intended` of any, the smallest `seen`; the level, and what each guard says
   /// that is not CLEAR. The leader is of this level, rather one that lasts than one that is held, rather one that is not
   /// acknowledged, with the earliest collision, with the oldest pose.
   MergedWarning merged(const Instant& now) const;

@@ -64,6 +64,7 @@ void WarningMonitor::restartLocked() {
   workpieces_->restart();
   swept_until_ = {};
   coverage_.reset();
+  inputs_.seen.reset();
   for (WarningInputs::OtherTool& tool : inputs_.other_tools) tool.newest.reset();
 }
 

@@ -65,6 +65,7 @@ void WarningMonitor::predicted(const Prediction& prediction, const Timestamps& p
     warnings_->update(prediction, pose, workpieces_->newest(), now);
     coverage_->pose = pose;
     coverage_->covered_until = prediction.coveredUntil();
+    inputs_.seen = prediction.seen;
   }
   if (!prediction.failures.empty()) on_fault_();
 }

@@ -1,6 +1,7 @@
 #include "monitor/warning_reasons.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/number_text.h"
 #include "monitor/late_frames.h"
@@ -34,6 +35,12 @@ void addCoverageReasons(const WarningInputs& inputs, const Instant& now, const W
   if (ahead >= limits.considered) return;
   if (ahead <= Duration::zero()) return addReason(warning, kNotCovered, {"predicted path not tested"});
   addReason(warning, kNotCovered, {"predicted path tested for ", inSeconds(ahead), " only"});
+}
+
+void addSight(const WarningInputs& inputs, const WarningLimits& limits, Warning& warning) {
+  if (!inputs.seen || *inputs.seen >= limits.min_seen) return;
+  const std::string percent = std::to_string(std::lround(100.0 * *inputs.seen));
+  addReason(warning, kNotSeen, {"of a step of the predicted path, cameras see ", percent, " %"});
 }
 
 void addObject(Warning& warning, Reason reason, TextPieces message) {
@@ -129,6 +136,7 @@ void addReasons(const WarningInputs& inputs, const Instant& now, const WarningLi
   addPoseReasons(inputs, now, limits, warning);
   addObjectReasons(inputs, now, limits, warning);
   addCoverageReasons(inputs, now, limits, warning);
+  addSight(inputs, limits, warning);
   addOtherToolReasons(inputs, now, limits, warning);
   addFrameReasons(inputs, now, limits, warning);
   addLoadReasons(inputs, now, limits, warning);

@@ -18,7 +18,10 @@ void requireUsable(const MotionGuardOptions& options) {
     throw InvalidInput("lag of the robot: must be >= 0 s");
   }
   if (!(options.escape_speed >= 0.0)) throw InvalidInput("escape speed: must be >= 0 m/s");
+  if (!(options.unseen_speed >= 0.0)) throw InvalidInput("unseen speed: must be >= 0 m/s");
 }
+
+Twist scaled(const Twist& twist_W, double scale) { return {scale * twist_W.v_W, scale * twist_W.w_W}; }
 
 }  // namespace
 
@@ -65,12 +68,15 @@ void MotionGuard::limit(const MotionInputs& inputs, const MotionCommand& command
   uncovered.distance -= std::max(largestDisplacement(inputs.planes->X_WT, inputs.pose->X_WT, radius),
                                  largestDisplacement(inputs.planes->X_WT, expected_WT, radius));
 
+  Twist command_W = command.twist_W;
+  if (motion.decision.cause == PermissionCause::kUnseen && motion.commanded_speed > options_.unseen_speed)
+    command_W = scaled(command_W, options_.unseen_speed / motion.commanded_speed);
   motion.twist_W = motion.decision.permission == Permission::kLimited
-                       ? limiter_.limit(command.twist_W, facing_, uncovered, limits)
+                       ? limiter_.limit(command_W, facing_, uncovered, limits)
                        : escapeVelocity(command.twist_W, facing_, uncovered, limits, options_.escape_speed);
   motion.sent_speed = fastestPoint(motion.twist_W, limits.tool_radius);
   motion.scale = motion.commanded_speed > 0.0 ? std::min(1.0, motion.sent_speed / motion.commanded_speed) : 1.0;
-  motion.limiting = limiting(command.twist_W, limits);
+  motion.limiting = limiting(command_W, limits);
 }
 
 // The planes bound the speed from where the tool is. What was sent lately is not in the newest pose yet.

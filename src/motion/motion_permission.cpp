@@ -1,7 +1,5 @@
 #include "sweep_guard/motion/motion_permission.h"
 
-#include "sweep_guard/monitor/reason.h"
-
 namespace sweep_guard_core {
 namespace {
 
@@ -9,7 +7,7 @@ std::optional<PermissionCause> problemOfGuard(const MotionInputs& inputs, const 
                                               const MotionGuardOptions& options) {
   if (!inputs.warning) return PermissionCause::kNoWarning;
   if (now.steady - inputs.warning->received > options.silence) return PermissionCause::kWarningSilent;
-  if (inputs.warning->level == WarningLevel::kUnknown) return PermissionCause::kUnknown;
+  if (!inputs.warning->knows()) return PermissionCause::kUnknown;
   if (!inputs.pose) return PermissionCause::kNoPose;
   if (now.steady - inputs.pose->timestamps.received > options.silence) return PermissionCause::kPoseSilent;
   if (now.stamp - inputs.pose->timestamps.stamp > options.pose_age) return PermissionCause::kOldPose;
@@ -45,6 +43,8 @@ const char* textOf(PermissionCause cause) {
       return "the guard is silent";
     case PermissionCause::kUnknown:
       return "the guard's level is UNKNOWN";
+    case PermissionCause::kUnseen:
+      return "no camera sees where the tool is going";
     case PermissionCause::kNoPlanes:
       return "no separating planes yet";
     case PermissionCause::kPlanesSilent:
@@ -74,7 +74,7 @@ PermissionDecision decidePermission(const MotionInputs& inputs, const std::optio
   if (const auto problem = problemOfGuard(inputs, now, options)) {
     return {mayEscape(inputs, now, options) ? Permission::kEscape : Permission::kStop, *problem};
   }
-  return {Permission::kLimited, PermissionCause::kGuarded};
+  return {Permission::kLimited, inputs.warning->sees() ? PermissionCause::kGuarded : PermissionCause::kUnseen};
 }
 
 }  // namespace sweep_guard_core

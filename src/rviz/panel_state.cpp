@@ -39,6 +39,7 @@ constexpr std::pair<std::uint32_t, const char*> kReasons[] = {
     {Warning::SELFTEST, "the detector failed its test"},
     {Warning::CROSSCHECK, "two detectors disagree"},
     {Warning::INSIDE_UNTESTED, "a surface is open: inside is not tested"},
+    {Warning::NOT_SEEN, "no camera sees where the tool is going"},
     {Warning::JUMP, "a jump: what was reported may come from it"},
     {Warning::DISABLED, "the guard is disabled: nothing is tested"},
 };

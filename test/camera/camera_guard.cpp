@@ -9,6 +9,7 @@ CameraGuard::CameraGuard(Tool tool, const CameraSetup& setup)
     : setup_(setup),
       tool_(std::move(tool)),
       empty_(Grid(setup.width, setup.height)),
+      points_T_(pointsWithin(tool_)),
       guard_(tool_, makeDetector("halfspace"), {}),
       surface_(Grid(setup.width, setup.height), setup.camera, setup.options) {}
 
@@ -27,9 +28,16 @@ void CameraGuard::run(double seconds, const Pose& pose_W, const See& see, const 
   }
 }
 
+std::optional<double> CameraGuard::seen() {
+  const PredictedMotion motion = guard_.predictMotion({}, std::chrono::milliseconds(1100));
+  if (motion.path.empty() || !seen_.begin(shown_, motion.from)) return {};
+  seen_.add(tool_, points_T_, motion.from.bodies[0].X_WB, motion.path);
+  return seen_.share();
+}
+
 void CameraGuard::take(double seconds, const std::vector<float>& depths) {
-  const double reach = newest_ < 0.0 ? 0.0 : setup_.surface_speed * (seconds - newest_);
-  surface_.take(depths, setup_.X_WC, reach, selfAt(atSecond(seconds)));
+  const double since = newest_ < 0.0 ? 0.0 : seconds - newest_;
+  surface_.take(depths, setup_.X_WC, since, selfAt(atSecond(seconds)));
   const auto [points, found] = surface_.compare(depths, points_W_, setup_.self_padding);
   compared_.points += points;
   compared_.found += found;
@@ -40,6 +48,7 @@ void CameraGuard::take(double seconds, const std::vector<float>& depths) {
   image->mesh_M.deform(surface_.places_F(), surface_.before_F(), surface_.existing());
   image->of_camera = true;
   image->updates = ++images_;
+  image->free_space = surface_.freeSpace();
   newest_ = seconds;
   shown_ = {image};
 }

@@ -2,10 +2,12 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "camera/depth_surface.h"
 #include "guard/recent_poses.h"
+#include "guard/seen_share.h"
 #include "sweep_guard/guard/guard.h"
 
 namespace sweep_guard_core {
@@ -17,7 +19,6 @@ struct CameraSetup {
   Eigen::Isometry3d X_WC;  ///< where the camera is taken to be [m]
   DepthOptions options = {0.2, 1.5, {0.005, 0.003}};
   double self_padding = 0.03;  ///< [m]
-  double surface_speed = 1.0;  ///< [m/s]
   double rate = 30.0;          ///< [Hz]
   double delay = 0.033;        ///< [s]
 };
@@ -36,6 +37,9 @@ class CameraGuard {
   /// Runs from where the last call has ended.
   void run(double seconds, const Pose& pose_W, const See& see, const Report& report);
 
+  /// Returns how much of the predicted path the camera sees, see Prediction::seen; empty: no motion is known.
+  std::optional<double> seen();
+
   const DepthSurface& surface() const { return surface_; }
   const Workpieces& shown() const { return shown_; }
   size_t images() const { return images_; }
@@ -53,7 +57,9 @@ class CameraGuard {
   const CameraSetup setup_;
   const Tool tool_;
   const TriangleMesh empty_;
+  const std::vector<Eigen::Vector3d> points_T_;
   Guard guard_;
+  SeenShare seen_;
   DepthSurface surface_;
   RecentPoses poses_;
   Workpieces shown_;

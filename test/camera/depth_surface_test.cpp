@@ -9,6 +9,7 @@
 #include <set>
 
 #include "allocations.h"
+#include "camera/depth_surface_fixture.h"
 #include "detection/exact_oracle.h"
 #include "refusal.h"
 #include "scenes.h"
@@ -17,43 +18,6 @@
 
 namespace sweep_guard_core {
 namespace {
-
-constexpr std::uint32_t kWidth = 53;
-constexpr std::uint32_t kHeight = 38;
-constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-const Pinhole kCamera{60.0, 58.0, 25.7, 18.2};
-const DepthOptions kExact{0.1, 4.0, {0.0, 0.0}};
-
-std::vector<float> wall(float depth) { return std::vector<float>(kWidth * kHeight, depth); }
-
-float& at(std::vector<float>& depths, std::uint32_t column, std::uint32_t row) { return depths[row * kWidth + column]; }
-
-Eigen::Vector3d onRay(std::uint32_t column, std::uint32_t row, double depth) {
-  return {depth * (column - kCamera.cx) / kCamera.fx, depth * (row - kCamera.cy) / kCamera.fy, depth};
-}
-
-class DepthSurfaceTest : public testing::Test {
- protected:
-  TriangleMesh take(const std::vector<float>& depths, const Eigen::Isometry3d& X_FC = Eigen::Isometry3d::Identity(),
-                    const DepthOptions& options = kExact) {
-    DepthSurface surface(grid_, kCamera, options);
-    surface.take(depths, X_FC);
-    TriangleMesh mesh_F(grid_);
-    mesh_F.deform(surface.places_F(), surface.before_F(), surface.existing());
-    return mesh_F;
-  }
-
-  static std::set<std::set<std::uint32_t>> trianglesOf(const TriangleMesh& mesh) {
-    std::set<std::set<std::uint32_t>> all;
-    Submesh(mesh).forEachTriangle([&](std::uint32_t i) {
-      const Triangle& triangle = mesh.triangles()[i];
-      all.insert({triangle.begin(), triangle.end()});
-    });
-    return all;
-  }
-
-  const Grid grid_{kWidth, kHeight};
-};
 
 TEST_F(DepthSurfaceTest, EachPixelLiesOnItsRayInTheFrameOfTheSurface) {
   Random random(1);
@@ -182,38 +146,6 @@ TEST_F(DepthSurfaceTest, WhatWasSeenBeforeIsForgotten) {
   EXPECT_EQ(surface.seen(), 0U);
   EXPECT_TRUE(trianglesOf(mesh_F).empty());
 }
-
-// The middle of a box of 0.1 m at the center of the picture.
-SweptVolume boxAt(double depth) {
-  SweptVolume box;
-  box.box.X_MB = placedAt(0.0, 0.0, depth);
-  box.box.half_extents = Eigen::Vector3d::Constant(0.05);
-  return box;
-}
-
-// Of two images of a wall, with the same pose of the camera unless it is stated.
-class DepthMotionTest : public DepthSurfaceTest {
- protected:
-  Eigen::Vector3d before(std::uint32_t column, std::uint32_t row) {
-    return Eigen::Map<const Eigen::Vector3f>(&surface_.before_F()[3 * size_t{grid_.place(column, row)}]).cast<double>();
-  }
-  Eigen::Vector3d now(std::uint32_t column, std::uint32_t row) {
-    return Eigen::Map<const Eigen::Vector3f>(&surface_.places_F()[3 * size_t{grid_.place(column, row)}]).cast<double>();
-  }
-  void take(const std::vector<float>& depths, double reach, const std::vector<SweptVolume>& bodies = {}) {
-    surface_.take(depths, X_FC_, reach, bodies);
-  }
-
-  DepthSurface surface_{grid_, kCamera, kExact};
-  // A robot before a wall, in one pixel.
-  void takeRobotBefore(float depth) {
-    std::vector<float> robot = wall(depth);
-    at(robot, 26, 18) = 0.5F;
-    take(robot, 0.0, {boxAt(0.5)});
-  }
-
-  Eigen::Isometry3d X_FC_ = Eigen::Isometry3d::Identity();
-};
 
 TEST_F(DepthMotionTest, APixelMovesAlongItsRayAsFarAsItReaches) {
   take(wall(1.0F), 0.0);
@@ -404,78 +336,6 @@ TEST_F(DepthMotionTest, WhatStandsBesideTheRobotIsASurface) {
   EXPECT_TRUE(now(26, 18).isApprox(onRay(26, 18, 0.5), 1e-6));
 }
 
-// A hand before a wall, from one column to the next.
-std::vector<float> hand(std::uint32_t left, std::uint32_t right, float behind = 1.0F) {
-  std::vector<float> depths = wall(behind);
-  for (std::uint32_t row = 0; row < kHeight; ++row) {
-    for (std::uint32_t column = left; column < right; ++column) at(depths, column, row) = 0.5F;
-  }
-  return depths;
-}
-
-class GonePixelsTest : public DepthMotionTest {
- protected:
-  // The robot hides the middle.
-  void takeBehindRobot(std::vector<float> depths) {
-    for (std::uint32_t row = 15; row < 22; ++row) {
-      for (std::uint32_t column = 23; column < 30; ++column) at(depths, column, row) = 0.4F;
-    }
-    take(depths, 0.0, {boxAt(0.4)});
-    EXPECT_GE(surface_.self(), 49U);
-  }
-  // Two images each, which show that it is no fault.
-  void takeTwo(const std::vector<float>& depths) {
-    for (int i = 0; i < 2; ++i) take(depths, 0.0);
-  }
-  void takeTwoBehindRobot(const std::vector<float>& depths) {
-    for (int i = 0; i < 2; ++i) takeBehindRobot(depths);
-  }
-};
-
-TEST_F(GonePixelsTest, WhatTheRobotHidesGoesWithWhatWasJoinedToIt) {
-  takeTwo(wall(1.0F));
-  takeTwo(hand(15, 40));
-  takeTwoBehindRobot(hand(15, 40));
-  EXPECT_FLOAT_EQ(static_cast<float>(now(26, 18).z()), 0.5F);
-  takeTwoBehindRobot(wall(1.0F));
-  for (const std::uint32_t column : {23U, 26U, 29U}) {
-    EXPECT_FLOAT_EQ(static_cast<float>(now(column, 18).z()), 1.0F) << column;
-  }
-}
-
-TEST_F(GonePixelsTest, OfWhatGoesInPartTheRestStays) {
-  takeTwo(wall(1.0F));
-  takeTwo(hand(15, 40));
-  takeTwoBehindRobot(hand(15, 40));
-  takeTwoBehindRobot(hand(25, 40));
-  EXPECT_FLOAT_EQ(static_cast<float>(now(23, 18).z()), 1.0F);
-  EXPECT_FLOAT_EQ(static_cast<float>(now(29, 18).z()), 0.5F);
-  takeTwoBehindRobot(wall(1.0F));
-  EXPECT_FLOAT_EQ(static_cast<float>(now(29, 18).z()), 1.0F);
-}
-
-TEST_F(GonePixelsTest, WhatGoesBesideTheRobotTakesNothingFartherAwayWithIt) {
-  takeTwo(wall(1.0F));
-  takeTwoBehindRobot(hand(30, 40));
-  takeTwoBehindRobot(wall(1.0F));
-  EXPECT_EQ(surface_.seen(), size_t{kWidth} * kHeight);
-  EXPECT_FLOAT_EQ(static_cast<float>(now(29, 18).z()), 1.0F);
-}
-
-TEST_F(GonePixelsTest, WhereNothingIsKnownBehindWhatHasGoneNoSurfaceIsLeft) {
-  takeTwo(hand(0, kWidth));
-  takeTwoBehindRobot(hand(0, kWidth));
-  takeTwoBehindRobot(wall(1.0F));
-  EXPECT_EQ(surface_.seen(), size_t{kWidth} * kHeight - 49);
-}
-
-TEST_F(GonePixelsTest, WhatWasBeforeTheDistanceGoesToo) {
-  takeTwo(hand(15, 40, 7.0F));
-  takeTwoBehindRobot(hand(15, 40, 7.0F));
-  takeTwoBehindRobot(wall(7.0F));
-  EXPECT_EQ(surface_.seen(), 0U);
-}
-
 // Of points 1 cm behind the face of the robot, which is a box of 0.1 m.
 TEST_F(DepthMotionTest, ThePointsOfTheRobotAreFoundWhereThePictureShowsIt) {
   std::vector<Eigen::Vector3d> points;
@@ -508,7 +368,7 @@ TEST_F(DepthSurfaceTest, AnImageAllocatesNothing) {
   DepthSurface surface(grid_, kCamera, kExact);
   TriangleMesh mesh_F(grid_);
   const std::vector<float> depths = wall(1.0F);
-  surface.take(depths, Eigen::Isometry3d::Identity());
+  for (int i = 0; i < 3; ++i) surface.take(depths, Eigen::Isometry3d::Identity());
   mesh_F.deform(surface.places_F(), surface.before_F(), surface.existing());
   const Allocations allocations;
   surface.take(depths, Eigen::Isometry3d::Identity());

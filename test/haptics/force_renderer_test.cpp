@@ -288,6 +288,14 @@ TEST(ForcePermissionTest, ASilentPosePlanesOrDeviceFadeTheForceOutFrom50To70Mill
   }
 }
 
+TEST(ForcePermissionTest, WhatNoCameraSeesTakesNothingFromTheForceOfWhatIsKnown) {
+  const ForcePermission permission = decide([](auto& inputs, auto& /*planes*/) {
+    inputs.warning->level = WarningLevel::kUnknown;
+    inputs.warning->reasons = kNotSeen;
+  });
+  EXPECT_EQ(permission.gain, 1.0);
+}
+
 TEST(ForcePermissionTest, WhatIsNotKnownLetsNothingThrough) {
   const std::vector<std::pair<PermissionCause, Change>> cases = {
       {PermissionCause::kNoWarning, [](auto& inputs, auto& /*planes*/) { inputs.warning.reset(); }},

@@ -157,6 +157,16 @@ TEST_F(WarningMergerTest, SaysWhichGuardSaysWhat) {
             "CONTACT: /left: UNKNOWN: no tool pose yet; /right: CONTACT: tool touches 'liver'");
 }
 
+TEST_F(WarningMergerTest, SaysTheSmallestShareThatIsSeen) {
+  HeardWarning left = said(kClear);
+  HeardWarning right = said(kClear);
+  EXPECT_EQ(merged(left, right).seen, std::nullopt);
+  right.seen = 0.7;
+  EXPECT_EQ(merged(left, right).seen, 0.7);
+  left.seen = 0.2;
+  EXPECT_EQ(merged(left, right).seen, 0.2);
+}
+
 TEST_F(WarningMergerTest, PromisesNoMoreThanTheGuardThatPromisesLeast) {
   HeardWarning less = said(kClear);
   less.valid_until -= milliseconds(150);

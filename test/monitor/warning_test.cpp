@@ -434,7 +434,7 @@ TEST(WarningTest, NamesEveryReasonInItsText) {
 }
 
 TEST(WarningTest, EveryFaultMakesItUnknownUnderItsOwnBit) {
-  for (std::uint32_t bit = 1; bit <= kJump; bit <<= 1) {
+  for (std::uint32_t bit = 1; bit <= kNotSeen; bit <<= 1) {
     if ((bit & kDegraded) != 0) continue;
     WarningInputs inputs = allGood();
     inputs.faults[static_cast<Reason>(bit)] = "message";
@@ -499,6 +499,23 @@ TEST(WarningTest, WhatDegradesLeavesTheLevelAndEndsAfterTheHoldTime) {
   EXPECT_TRUE(has(warningNow(inputs).text, "3 tool poses were lost"));
   inputs.pose_loss->found -= 1ns;
   EXPECT_EQ(warningNow(inputs).reasons, 0U);
+}
+
+TEST(WarningTest, IsUnknownWhileCamerasSeeLessOfThePathThanTheyMust) {
+  WarningInputs inputs = allGood();
+  WarningLimits limits = kShortLimits;
+  limits.min_seen = 0.2;
+  const auto with = [&](std::optional<double> seen) {
+    inputs.seen = seen;
+    const Warning warning = warningOf(inputs, kNow, limits);
+    EXPECT_EQ(warning.seen, seen);
+    return warning;
+  };
+  EXPECT_EQ(with({}).level, WarningLevel::kClear);
+  EXPECT_EQ(with(0.2).level, WarningLevel::kClear);
+  EXPECT_EQ(with(0.194).level, WarningLevel::kUnknown);
+  EXPECT_EQ(with(0.194).reasons, kNotSeen);
+  EXPECT_EQ(with(0.194).text, "UNKNOWN: of a step of the predicted path, cameras see 19 %");
 }
 
 TEST(WarningTest, AJumpIsSaidForTheHoldTimeAndKeepsTheLevel) {

@@ -70,6 +70,28 @@ TEST(MotionGuardTest, SlowsDownBeforeAPlaneAndNamesIt) {
   EXPECT_EQ(motion.planes_age, milliseconds(10));
 }
 
+TEST(MotionGuardTest, WhereNoCameraSeesItGoingTheFastestPointIsSlow) {
+  MotionInputs inputs = inputsAt(1000, 0.8);
+  inputs.warning = MotionInputs::GuardWarning{WarningLevel::kUnknown, kNotSeen, at(1000).steady};
+  MotionGuard guard({});
+  const MotionCommand fast = moving({0.0, 0.3, 0.4}, 1000, {0.0, 0.0, 2.0});
+  const GuardedMotion motion = guard.guard(inputs, fast, at(1000));
+  EXPECT_NEAR(motion.sent_speed, 0.05, 1e-9);
+  EXPECT_NEAR(motion.scale, 0.05 / motion.commanded_speed, 1e-9);
+  EXPECT_TRUE(motion.twist_W.v_W.isApprox(motion.scale * fast.twist_W.v_W));
+  EXPECT_TRUE(motion.twist_W.w_W.isApprox(motion.scale * fast.twist_W.w_W));
+  const MotionCommand slow = moving({0.0, 0.03, 0.0}, 1000);
+  EXPECT_TRUE(guard.guard(inputs, slow, at(1000)).twist_W == slow.twist_W);
+}
+
+TEST(MotionGuardTest, WhereNoCameraSeesItGoingPlanesLimitItToo) {
+  MotionInputs inputs = inputsAt(1000, 0.0021);
+  inputs.warning = MotionInputs::GuardWarning{WarningLevel::kUnknown, kNotSeen, at(1000).steady};
+  const GuardedMotion motion = MotionGuard({}).guard(inputs, moving({-0.5, 0.0, 0.0}, 1000), at(1000));
+  EXPECT_LT(motion.sent_speed, 0.01);
+  EXPECT_TRUE(motion.limiting);
+}
+
 TEST(MotionGuardTest, ARetreatIsPassedOnBitForBitAtAnyGap) {
   for (const double x : {-0.01, 0.0, 0.001, 0.003, 0.01}) {
     MotionGuard guard({});

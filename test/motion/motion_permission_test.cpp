@@ -74,6 +74,18 @@ TEST_F(MotionPermissionTest, NeedsALevel) {
   expect(Permission::kStop, PermissionCause::kUnknown);
 }
 
+TEST_F(MotionPermissionTest, WhereNoCameraSeesAloneIsNoReasonToStop) {
+  inputs_.warning->reasons = kNotSeen;
+  expect(Permission::kLimited, PermissionCause::kUnseen);
+  inputs_.warning->level = WarningLevel::kUnknown;
+  inputs_.warning->reasons = kNotSeen | kOverload;
+  expect(Permission::kLimited, PermissionCause::kUnseen);
+  inputs_.warning->reasons = kNotSeen | kPoseStale;
+  expect(Permission::kStop, PermissionCause::kUnknown);
+  inputs_.warning->reasons = kOverload;
+  expect(Permission::kStop, PermissionCause::kUnknown);
+}
+
 TEST_F(MotionPermissionTest, NeedsPlanesWithinTheSilence) {
   planes_->timestamps.received = at(850).steady;
   expect(Permission::kLimited, PermissionCause::kGuarded);

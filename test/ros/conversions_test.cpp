@@ -79,6 +79,20 @@ std::string refusalOf(const geometry_msgs::Pose& pose) {
   return "";
 }
 
+TEST(ConversionsTest, WhatNoCameraSeesIsUnknownAndNotReflex) {
+  sweep_guard_core::Warning warning;
+  warning.reasons = sweep_guard_core::kNotSeen;
+  warning.seen = 0.03;
+  EXPECT_EQ(toMsg(warning).level, sweep_guard::Warning::UNKNOWN);
+  EXPECT_TRUE(toMsg(warning).considered);
+  EXPECT_FALSE(toMsg(warning).reflex);
+  EXPECT_EQ(toMsg(warning).seen, 0.03);
+  warning.reasons |= sweep_guard_core::kPoseStale;
+  warning.seen.reset();
+  EXPECT_TRUE(toMsg(warning).reflex);
+  EXPECT_TRUE(std::isnan(toMsg(warning).seen));
+}
+
 TEST(ConversionsTest, AQuaternionOfAnotherLengthIsRefusedWithItsValueAndLength) {
   const std::string begin = "orientation is not a unit quaternion: the length of ";
   const Eigen::Vector3d place(1.0, 2.0, 3.0);

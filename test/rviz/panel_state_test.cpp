@@ -91,13 +91,13 @@ TEST(PanelStateTest, ALevelThatDoesNotExistIsUnknown) {
 }
 
 TEST(PanelStateTest, EveryReasonHasATextWhereTheWarningHasNone) {
-  for (std::uint32_t bit = 1; bit <= sweep_guard_core::kJump; bit <<= 1U) {
+  for (std::uint32_t bit = 1; bit <= sweep_guard_core::kNotSeen; bit <<= 1U) {
     EXPECT_EQ(shown(warningLevel(Warning::UNKNOWN, bit)).reasons.size(), 1U) << bit;
   }
 }
 
 TEST(PanelStateTest, TheReasonsThatLeaveTheLevelAreThoseOfTheGuard) {
-  for (std::uint32_t bit = 1; bit <= sweep_guard_core::kJump; bit <<= 1U) {
+  for (std::uint32_t bit = 1; bit <= sweep_guard_core::kNotSeen; bit <<= 1U) {
     const bool stays_clear = shown(warningLevel(Warning::CLEAR, bit)).level == WarningLevel::kClear;
     EXPECT_EQ(stays_clear, (bit & sweep_guard_core::kDegraded) != 0) << bit;
   }

@@ -331,7 +331,7 @@ class CameraSession {
   void show(size_t i, DepthSurface& surface, const TriangleMesh& empty) {
     const auto& image = images_[i];
     const double since = i == 0 ? 0.0 : toSeconds(image.stamp - images_[i - 1].stamp);
-    surface.take(image.depths, image.X_FC, surfaces_.images().surface_speed * since);
+    surface.take(image.depths, image.X_FC, since);
     Workpiece seen{"camera", 0, image.stamp, SteadyTime(image.stamp.time_since_epoch()), "F", empty};
     seen.mesh_M.deform(surface.places_F(), surface.before_F(), surface.existing());
     seen.of_camera = true;

@@ -157,7 +157,7 @@ DepthImages randomCamera(Random& random) {
   camera.options.nearest = random.uniform(0.05, 0.4);
   camera.options.farthest = random.uniform(2.0, 4.0);
   camera.options.margin = {random.chance(0.2) ? 0.0 : random.logUniform(1e-4, 0.02), random.logUniform(1e-4, 0.01)};
-  camera.surface_speed = random.chance(0.1) ? 0.0 : random.logUniform(0.2, 5.0);
+  camera.options.surface_speed = random.chance(0.1) ? 0.0 : random.logUniform(0.2, 5.0);
   return camera;
 }
 

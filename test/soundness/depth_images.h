@@ -21,7 +21,6 @@ struct DepthImages {
   std::uint32_t height = 0;  ///< [pixels]
   Pinhole camera = {};
   DepthOptions options = {};
-  double surface_speed = 1.0;  ///< [m/s]
   std::vector<Image> images;
 };
 

@@ -57,8 +57,8 @@ SeenSurfaces::SeenSurfaces(const DepthImages& images) : images_(images) {
     if (i > 0) {
       const DepthImages::Image& before = images.images[i - 1];
       seen.rested = image.X_FC.matrix() == before.X_FC.matrix();
-      seen.reach =
-          static_cast<Real>(images.surface_speed) * static_cast<Real>((image.stamp - before.stamp).count()) * 1e-9L;
+      seen.reach = static_cast<Real>(images.options.surface_speed) *
+                   static_cast<Real>((image.stamp - before.stamp).count()) * 1e-9L;
     }
     findTriangles(seen);
     seen_.push_back(std::move(seen));

@@ -13,6 +13,8 @@
 
 namespace sweep_guard_core {
 
+struct FreeSpace;
+
 /// A workpiece at one moment. Threads share snapshots, which must not change meanwhile: a new deformation is another
 /// snapshot and never waits for a sweep.
 struct Workpiece {
@@ -28,6 +30,8 @@ struct Workpiece {
   /// What a camera saw: the mesh is a grid, and `updates` is the number of the image. Whatever was not where its vertices were
   /// before came or went since the image before.
   bool of_camera = false;
+  std::shared_ptr<const FreeSpace> free_space =
+      nullptr;                 ///< of a camera: what it knows to be free, in M; null: nothing
   bool of_other_tool = false;  ///< a link of another tool: Guard::follow() moves its frame, and it does not age
 };
 

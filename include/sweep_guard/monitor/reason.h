@@ -31,11 +31,15 @@ enum Reason : std::uint32_t {
   kCrosscheck = 1U << 21,      ///< two detectors disagreed about a sweep
   kInsideUntested = 1U << 22,  ///< the surface of a workpiece has a border, and the sender does not say that it is open
   kJump = 1U << 23,  ///< the tool, a workpiece or a joint moved faster than the limits: what was met may come from that
+  kNotSeen = 1U << 24,  ///< of where the tool is going, cameras have seen less than `min_seen` to be free
 };
 
 /// Reasons that report a degraded state and do not change the level. Any other reason makes a warning that would be
-/// CLEAR UNKNOWN, and sets the flag `reflex` of msg/Warning.msg.
+/// CLEAR UNKNOWN.
 constexpr std::uint32_t kDegraded = kOverload | kPoseLoss | kInsideUntested | kJump;
+
+/// Reasons with which the tool may go on. Any other sets the flag `reflex` of msg/Warning.msg.
+constexpr std::uint32_t kNotStopping = kDegraded | kNotSeen;
 
 /// Reasons with which the guard may not know every surface, or not where it is.
 constexpr std::uint32_t kSurfacesMissing = kNoMesh | kMeshInvalid | kTfFail | kTimeJump | kDetectorFault | kNotSwept;

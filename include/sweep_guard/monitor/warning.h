@@ -39,6 +39,7 @@ struct WarningLimits {
   WarningThresholds thresholds = {};
   Duration acknowledge_time = std::chrono::seconds(10);  ///< longest time that a warning stays acknowledged; >= 0
   Rules<Duration> mesh_timeouts = {};                    ///< of some workpieces, in place of `mesh_timeout`
+  double min_seen = 0.13;  ///< least share of each step of the predicted path that cameras must have seen, in (0, 1]
 
   /// Returns the age above which a workpiece is stale.
   Duration meshTimeout(const std::string& id) const {
@@ -72,10 +73,11 @@ struct Warning {
   /// When the contact or the predicted contact ended that the level still reports, for the hold time. Empty: it lasts,
   /// or there is none.
   std::optional<Time> held_since;
-  bool acknowledged = false;  ///< the operator knows of this workpiece; only at kConsidered
-  bool intended = false;      ///< the newest sweep, if not stale, met a workpiece as intended; at any level
-  Time pose_stamp;            ///< newest pose that has been swept; epoch: none
-  Time covered_until;         ///< every workpiece is tested up to here; epoch: never
+  bool acknowledged = false;   ///< the operator knows of this workpiece; only at kConsidered
+  bool intended = false;       ///< the newest sweep, if not stale, met a workpiece as intended; at any level
+  std::optional<double> seen;  ///< of the newest prediction, see Prediction::seen
+  Time pose_stamp;             ///< newest pose that has been swept; epoch: none
+  Time covered_until;          ///< every workpiece is tested up to here; epoch: never
 
   void clear();  ///< resets all fields and keeps the buffers
 };

@@ -88,6 +88,7 @@ struct WarningInputs {
   std::vector<WorkpieceWarning> warnings;  ///< each workpiece once
   WorkpieceWarning removed;                ///< newest alarms of workpieces that are gone
   Time covered_until;                  ///< every workpiece is tested up to here, measured or predicted; epoch: never
+  std::optional<double> seen;          ///< of the newest prediction, see Prediction::seen
   std::optional<SteadyTime> overload;  ///< when poses were last swept at once that had waited beyond the limit
   Duration backlog{};                  ///< how long the first of these had waited
   std::optional<Event> pose_loss;      ///< newest poses that were sent and did not arrive

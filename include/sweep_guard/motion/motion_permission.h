@@ -7,6 +7,7 @@
 
 #include "sweep_guard/common/time.h"
 #include "sweep_guard/common/warning_level.h"
+#include "sweep_guard/monitor/reason.h"
 #include "sweep_guard/motion/plane_set.h"
 
 namespace sweep_guard_core {
@@ -26,6 +27,7 @@ enum class PermissionCause : std::uint8_t {
   kNoWarning,      ///< no warning has arrived yet
   kWarningSilent,  ///< no warning has arrived within `silence`
   kUnknown,        ///< the level of the warning is UNKNOWN
+  kUnseen,         ///< hardly any of the predicted path is seen by a camera
   kNoPlanes,       ///< no separating planes have arrived yet
   kPlanesSilent,   ///< no separating planes have arrived within `silence`
   kPlanesExpired,  ///< the separating planes are past their `valid_until`
@@ -46,9 +48,10 @@ struct MotionGuardOptions {
   Duration dead_time{};       ///< until the robot begins to do what was sent, >= 0
   Duration time_constant{};   ///< of the first-order lag with which the robot follows, >= 0
   // When to let nothing through:
-  Duration silence = std::chrono::milliseconds(150);           ///< of the guard, by receipt; > 0
-  Duration command_timeout = std::chrono::milliseconds(100);   ///< > 0
-  double escape_speed = 0.0;                                   ///< of any tool point [m/s], >= 0; 0: no escape
+  Duration silence = std::chrono::milliseconds(150);          ///< of the guard, by receipt; > 0
+  Duration command_timeout = std::chrono::milliseconds(100);  ///< > 0
+  double escape_speed = 0.0;                                  ///< of any tool point [m/s], >= 0; 0: no escape
+  double unseen_speed = 0.05;  ///< largest of any tool point where no camera sees it going [m/s], >= 0
   Duration escape_plane_age = std::chrono::milliseconds(500);  ///< older planes do not show where to escape to; > 0
   Duration pose_age = std::chrono::milliseconds(500);          ///< of the tool's pose, by its stamp; > 0
 };
@@ -63,6 +66,10 @@ struct MotionInputs {
     WarningLevel level = WarningLevel::kUnknown;
     std::uint32_t reasons = 0;  ///< bits of Reason
     SteadyTime received;
+
+    bool sees() const { return (reasons & kNotSeen) == 0; }  ///< where the tool is going, or there is no camera
+    /// Returns whether the guard knows all that it can see.
+    bool knows() const { return level != WarningLevel::kUnknown || (!sees() && (reasons & ~kNotStopping) == 0); }
   };
   std::shared_ptr<const PlaneSet> planes;  ///< newest ones
   std::shared_ptr<const ToolBalls> tool;   ///< newest one
@@ -83,9 +90,9 @@ struct PermissionDecision {
 /// | inputs | permission |
 /// |---|---|
 /// | no command, or one older than `command_timeout` | kStop |
-/// | warning, pose or planes silent for `silence`; an old pose, planes past `valid_until`, UNKNOWN | kEscape or kStop |
+/// | warning, pose or planes silent for `silence`; an old pose, planes past `valid_until`, UNKNOWN not by NOT_SEEN alone | kEscape or kStop |
 /// | planes that are incomplete or of an unknown tool | kStop |
-/// | otherwise | kLimited |
+/// | otherwise | kLimited, with NOT_SEEN to `unseen_speed` |
 ///
 /// Escape needs an `escape_speed`, a warning, a pose and complete planes of a known tool, both not older than
 /// `escape_plane_age` on either clock, and no reason of kSurfacesMissing: with one of these, the planes are not those of

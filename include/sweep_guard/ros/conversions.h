@@ -11,6 +11,8 @@
 #include <sweep_guard/Warning.h>
 
 #include <Eigen/Geometry>
+#include <limits>
+#include <optional>
 
 #include "sweep_guard/guard/guard.h"
 #include "sweep_guard/guard/prediction.h"
@@ -88,6 +90,11 @@ sweep_guard::Prediction toMsg(const sweep_guard_core::Prediction& prediction, sw
 /// Returns the time from when the prediction was made until the predicted collision [s]; infinite if there is none, NaN
 /// if unknown.
 double timeToCollision(const sweep_guard::Prediction& prediction);
+
+/// Returns a value that may be missing, as messages have it.
+inline double orNan(const std::optional<double>& value) {
+  return value.value_or(std::numeric_limits<double>::quiet_NaN());
+}
 
 /// Sets level and reasons, and the flags that follow from them.
 void setLevel(sweep_guard::Warning& msg, sweep_guard_core::WarningLevel level, std::uint32_t reasons);

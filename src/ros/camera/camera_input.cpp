@@ -121,7 +121,7 @@ void CameraInput::take(const Msg& msg, SteadyTime received) {
     prepare(readDepths(msg, depths_));
     requireSight(depths_);
     const Eigen::Isometry3d X_WC = locate(msg.header.frame_id, stamp);
-    surface_->take(depths_, X_WC, reachSince(stamp), self_.at(stamp, camera_.self_padding));
+    surface_->take(depths_, X_WC, secondsSince(stamp), self_.at(stamp, camera_.self_padding));
     newest_ = stamp;
     ++number_;
     keepShares({stamp, received});
@@ -130,6 +130,7 @@ void CameraInput::take(const Msg& msg, SteadyTime received) {
     image->stamp = stamp;
     image->received = received;
     image->updates = number_;
+    image->free_space = surface_->freeSpace();
   } catch (const std::exception& error) {  // invalid, no transform, or out of memory
     return refuse(error.what(), received);
   }
@@ -161,8 +162,8 @@ void CameraInput::prepare(const ImageSize& size) {
   size_ = size;
 }
 
-double CameraInput::reachSince(Time stamp) const {
-  return newest_ ? camera_.surface_speed * std::max(0.0, sweep_guard_core::toSeconds(stamp - *newest_)) : 0.0;
+double CameraInput::secondsSince(Time stamp) const {
+  return newest_ ? std::max(0.0, sweep_guard_core::toSeconds(stamp - *newest_)) : 0.0;
 }
 
 Eigen::Isometry3d CameraInput::locate(const std::string& frame, Time stamp) {

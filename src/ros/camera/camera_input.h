@@ -77,7 +77,7 @@ class CameraInput {
   template <typename Msg>
   void take(const Msg& msg, sweep_guard_core::SteadyTime received);
   void prepare(const ImageSize& size);
-  double reachSince(sweep_guard_core::Time stamp) const;
+  double secondsSince(sweep_guard_core::Time stamp) const;
   Eigen::Isometry3d locate(const std::string& frame, sweep_guard_core::Time stamp);
   std::shared_ptr<sweep_guard_core::Workpiece> unusedImage();
   void keepShares(const sweep_guard_core::Timestamps& image);

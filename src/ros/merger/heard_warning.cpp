@@ -1,5 +1,6 @@
 #include "ros/merger/heard_warning.h"
 
+#include <cmath>
 #include <utility>
 
 #include "ros/connection/sole_publisher.h"
@@ -28,6 +29,7 @@ HeardWarning heardFrom(const sweep_guard::Warning& message) {
   warning.held = message.held != 0;
   warning.acknowledged = message.acknowledged != 0;
   warning.intended = message.intended != 0;
+  if (!std::isnan(message.seen)) warning.seen = message.seen;
   warning.text = sweep_guard_core::printable(message.text);
   warning.received = now();
   return warning;

@@ -166,6 +166,7 @@ sweep_guard::Warning WarningMergerNode::merged(const sweep_guard_core::Instant& 
   message.covered_until = toMsg(all.covered_until);
   message.acknowledged = all.acknowledged;
   message.intended = all.intended;
+  message.seen = orNan(all.seen);
   message.text = all.text;
   return message;
 }

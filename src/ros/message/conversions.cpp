@@ -39,6 +39,7 @@ static_assert(equal(Warning::MULTI_PUBLISHER, sweep_guard_core::kMultiPublisher)
 static_assert(equal(Warning::POSE_LOSS, sweep_guard_core::kPoseLoss));
 static_assert(equal(Warning::INSIDE_UNTESTED, sweep_guard_core::kInsideUntested));
 static_assert(equal(Warning::JUMP, sweep_guard_core::kJump));
+static_assert(equal(Warning::NOT_SEEN, sweep_guard_core::kNotSeen));
 static_assert(equal(Warning::POSES_UNSWEPT, sweep_guard_core::kPosesUnswept));
 static_assert(equal(Warning::MESH_DROPPED, sweep_guard_core::kMeshDropped));
 static_assert(equal(Warning::WORKER_HUNG, sweep_guard_core::kWorkerHung));
@@ -298,7 +299,7 @@ void setLevel(sweep_guard::Warning& msg, sweep_guard_core::WarningLevel level, s
   msg.clear = level == WarningLevel::kClear;
   msg.contact = level == WarningLevel::kContact;
   msg.considered = !msg.clear;
-  msg.reflex = msg.contact || level == WarningLevel::kReflex || (reasons & ~sweep_guard_core::kDegraded) != 0;
+  msg.reflex = msg.contact || level == WarningLevel::kReflex || (reasons & ~sweep_guard_core::kNotStopping) != 0;
 }
 
 sweep_guard::Warning toMsg(const sweep_guard_core::Warning& warning) {
@@ -315,6 +316,7 @@ sweep_guard::Warning toMsg(const sweep_guard_core::Warning& warning) {
   if (warning.held_since) msg.held_since = toMsg(*warning.held_since);
   msg.acknowledged = warning.acknowledged;
   msg.intended = warning.intended;
+  msg.seen = orNan(warning.seen);
   return msg;
 }
 

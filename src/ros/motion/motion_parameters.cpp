@@ -79,6 +79,9 @@ void readMotion(ParameterReader& read, MotionParameters& parameters) {
       "escape_speed", options.escape_speed, {0.0, 10.0, "m/s"},
       "Speed at which a command may lead away from every surface while the guard does not know or is silent, "
       "for at most 0.5 s after the newest planes. 0: not at all.");
+  options.unseen_speed = read.number(
+      "unseen_speed", options.unseen_speed, {0.0, 10.0, "m/s"},
+      "Largest speed of any tool point while the guard's cameras do not see where the tool is going (NOT_SEEN).");
   parameters.leash.max_speed = read.number("max_speed", parameters.leash.max_speed, {0.001, 1000.0, "m/s"},
                                            "pose_stamped only: the pose that is sent moves no faster.");
   parameters.leash.max_turn_rate =

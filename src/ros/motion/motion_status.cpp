@@ -38,13 +38,16 @@ std::string nearestText(const MotionStatus& status) {
   return "'" + status.mesh_id + "', triangle " + std::to_string(status.triangle) + ", " + gap + " in front" + link;
 }
 
-std::string textOf(const MotionStatus& status, Permission permission) {
-  if (permission == Permission::kStop) return "stopped: " + status.cause;
-  if (permission == Permission::kEscape) {
+std::string textOf(const MotionStatus& status, const sweep_guard_core::PermissionDecision& decision) {
+  if (decision.permission == Permission::kStop) return "stopped: " + status.cause;
+  if (decision.permission == Permission::kEscape) {
     return status.cause + (status.sent_speed > 0.0 ? ": escapes slowly" : ": stopped, the command does not lead away");
   }
   if (status.code == MotionStatus::NO_WARNING) return "passed on";
-  return (status.code == MotionStatus::HALT_FOR_COLLISION ? "stopped before " : "slowed before ") + nearestText(status);
+  const std::string what = status.code == MotionStatus::HALT_FOR_COLLISION ? "stopped" : "slowed";
+  if (status.mesh_id.empty() && decision.cause == sweep_guard_core::PermissionCause::kUnseen)
+    return what + ": " + status.cause;
+  return what + " before " + nearestText(status);
 }
 
 // It is not the surfaces that limit the command.
@@ -77,7 +80,7 @@ MotionStatus statusOf(const GuardedMotion& motion, const sweep_guard::Proximity*
     status.tool_link = printable(plane.tool_link);
     status.gap = motion.limiting->gap;
   }
-  status.text = textOf(status, motion.decision.permission);
+  status.text = textOf(status, motion.decision);
   if (lead && motion.decision.permission != Permission::kStop) sayThatItStands(*lead, status);
   return status;
 }

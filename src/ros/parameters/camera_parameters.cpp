@@ -79,10 +79,11 @@ CameraParameters cameraOf(GroupReader& group) {
   camera.depth = group.text("depth");
   const auto [nearest, farthest] = group.pair("range", {0.1, 4.0}, {0.001, 1000.0, "m"});
   if (!(nearest < farthest)) GroupReader::refuse("with range: [nearest, farthest]");
-  camera.options = {nearest, farthest, group.pair("margin", {0.005, 0.003}, {0.0, 1.0})};
+  camera.options = {nearest, farthest, group.pair("margin", {0.005, 0.003}, {0.0, 1.0}), 0.0, 0.0};
   camera.timeout = sweep_guard_core::fromSeconds(group.number("timeout", 0.2, {0.01, 60.0, "s"}));
-  camera.surface_speed = group.number("surface_speed", 1.0, {0.0, 100.0, "m/s"});
+  camera.options.surface_speed = group.number("surface_speed", 1.0, {0.0, 100.0, "m/s"});
   camera.self_padding = group.number("self_padding", 0.03, {0.0, 1.0, "m"});
+  camera.options.remember = group.number("remember", 2.0, {0.0, 60.0, "s"});
   return camera;
 }
 
@@ -94,14 +95,16 @@ std::vector<CameraParameters> readCameras(ParameterReader& read) {
   read.groups(
       "cameras",
       "a list of groups {id: TEXT, depth: TEXT, range: [NUMBER, NUMBER], margin: [NUMBER, NUMBER], timeout: "
-      "NUMBER, surface_speed: NUMBER, self_padding: NUMBER}, of which only id and depth are needed, or []",
+      "NUMBER, surface_speed: NUMBER, self_padding: NUMBER, remember: NUMBER}, of which only id and depth are needed, "
+      "or []",
       "Depth cameras: what each sees is a workpiece by its id (letters, digits, _), and must be there. depth: topic of "
-      "images, "
-      "sensor_msgs/Image, or of compressedDepth (png) if it ends so; camera_info is expected beside it. range "
+      "images, sensor_msgs/Image, or of compressedDepth (png) if it ends so; camera_info is expected beside it. range "
       "[m]: depths that count. margin [m, 1/m]: a surface at depth z counts as nearer to the camera by the first "
       "plus the second times z^2: the error of the camera. timeout [s]: an older image makes the warning UNKNOWN. "
       "surface_speed [m/s]: what moves no faster along a ray of the camera is swept on its way. self_padding [m]: "
-      "what is as near to the tool is the tool itself.",
+      "what is as near to the tool is the tool itself. remember [s]: what was free when the robot came before it "
+      "counts as "
+      "free for so long.",
       [&](XmlRpcValue& group) {
         GroupReader reader(group);
         cameras.push_back(cameraOf(reader));

@@ -13,9 +13,8 @@ namespace sweep_guard_ros {
 struct CameraParameters {
   std::string id;                          ///< of the workpiece
   std::string depth;                       ///< topic of the images
-  sweep_guard_core::DepthOptions options;  ///< which depths count, and how near
+  sweep_guard_core::DepthOptions options;  ///< how its images are taken
   sweep_guard_core::Duration timeout{};    ///< an older image makes the warning UNKNOWN
-  double surface_speed = 0.0;              ///< with which what is seen may move along a ray [m/s]
   double self_padding = 0.0;               ///< what is as near to the tool is the tool itself [m]
 };
 
