@@ -74,7 +74,7 @@ void DepthSurface::take(const std::vector<float>& depths, const Eigen::Isometry3
   free_.begin(X_FC_, rests_, since);
   before_F_.swap(places_before_F_);
   beginSelf(bodies_F);
-  seen_ = 0;
+  seen_ = hidden_ = 0;
   for (size_t row = 0; row < y_.size(); row += kRows) {
     for (size_t v = row; v < std::min<size_t>(row + kRows, grid_.height()); ++v) readRow(depths, v);
     placeTiles(row);
@@ -174,6 +174,7 @@ void DepthSurface::hide(size_t tile) {
     const float free_to = depths_[pixel] - 2.0F * tolerance_.errorAt(depths_[pixel]);  // the robot is seen there
     if (remembered_[pixel] < free_to) remembered_[pixel] = farthest_[pixel];
     setDepth(pixel, remembered_[pixel] < free_to ? kNothing : remembered_[pixel]);
+    hidden_ += std::isnan(depths_[pixel]) ? 0 : 1;
   }
   const size_t row = tile / grid_.tileColumns() * kRows;
   const size_t column = tile % grid_.tileColumns() * kColumns;

@@ -9,6 +9,7 @@
 #include "camera/depth_tolerance.h"
 #include "camera/free_memory.h"
 #include "camera/gone_pixels.h"
+#include "camera/picture_point.h"
 #include "camera/pinhole.h"
 #include "camera/self_pixels.h"
 #include "sweep_guard/geometry/grid.h"
@@ -62,6 +63,7 @@ class DepthSurface {
   std::shared_ptr<const FreeSpace> freeSpace() const { return free_.newest(); }
   size_t seen() const { return seen_; }          ///< pixels of the newest image that are vertices
   size_t self() const { return self_.count(); }  ///< pixels of the newest image that the robot hides
+  size_t hidden() const { return hidden_; }      ///< those of them that are vertices: where it was seen last
   bool rests() const { return rests_; }          ///< the camera, since the image before
 
   /// Points of the robot that the newest image has to show, and how many it shows where they are expected.
@@ -75,6 +77,11 @@ class DepthSurface {
   /// @param distance  how near [m], >= 0: that by which the bodies were grown
   Expected compare(const std::vector<float>& depths, const std::vector<Eigen::Vector3d>& points_F,
                    double distance) const;
+
+  /// Returns the vertices that the newest image has, and the robot where it is seen.
+  /// @param depths      of the newest image
+  /// @param max_pixels  of a larger image, only some columns and rows are taken, evenly; > 0
+  std::vector<PicturePoint> points(const std::vector<float>& depths, size_t max_pixels) const;
 
  private:
   static constexpr size_t kColumns = Grid::kTileColumns;
@@ -128,6 +135,7 @@ class DepthSurface {
   std::vector<SweptVolume> bodies_F_;  // with the margin
   FreeMemory free_;
   size_t seen_ = 0;
+  size_t hidden_ = 0;
 };
 
 }  // namespace sweep_guard_core

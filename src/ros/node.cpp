@@ -9,7 +9,7 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       master_watch_(private_node, [this] { return parameters_.get()->settings; }),
       state_(node, private_node, process, parameters_),
       guard_(private_node, state_),
-      inputs_(node, state_, master_watch_.thread()),
+      inputs_(node, private_node, state_, master_watch_.thread()),
       outputs_(node, private_node, state_, guard_, inputs_, master_watch_.thread()),
       watchdog_(state_, [this] {
         inputs_.applyLateChanges();

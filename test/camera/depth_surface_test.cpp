@@ -201,6 +201,56 @@ TEST_F(DepthMotionTest, ACameraThatMovesForgetsWhatTheRobotHides) {
   EXPECT_EQ(surface_.seen(), size_t{kWidth} * kHeight - 1);
 }
 
+// Each point of a kind.
+std::vector<Eigen::Vector3d> pointsOf(PointKind kind, const std::vector<PicturePoint>& points) {
+  std::vector<Eigen::Vector3d> found;
+  for (const PicturePoint& point : points) {
+    if (point.kind == kind) found.push_back(point.p_F.cast<double>());
+  }
+  return found;
+}
+
+TEST_F(DepthMotionTest, APointIsSeenOrRememberedWhereItsVertexIsAndTheRobotWhereItIsSeen) {
+  const DepthOptions options{0.1, 4.0, {0.01, 0.0}};
+  DepthSurface surface(grid_, kCamera, options);
+  surface.take(wall(1.0F), X_FC_);
+  std::vector<float> robot = wall(1.0F);
+  at(robot, 26, 18) = 0.5F;
+  at(robot, 25, 18) = kNone;
+  at(robot, 40, 30) = kNone;
+  surface.take(robot, X_FC_, 0.0, {boxAt(0.5)});
+  const auto points = surface.points(robot, robot.size());
+  const auto remembered = pointsOf(PointKind::kRemembered, points);
+  ASSERT_EQ(remembered.size(), 2U);
+  EXPECT_EQ(surface.hidden(), 2U);
+  EXPECT_TRUE(remembered[1].isApprox(onRay(26, 18, 1.0) - 0.01 * onRay(26, 18, 1.0).normalized(), 1e-6));
+  const auto self = pointsOf(PointKind::kSelf, points);
+  ASSERT_EQ(self.size(), 1U) << "in the other pixel it is not seen";
+  EXPECT_TRUE(self[0].isApprox(onRay(26, 18, 0.5), 1e-6));
+  const auto seen = pointsOf(PointKind::kSeen, points);
+  EXPECT_EQ(seen.size(), size_t{kWidth} * kHeight - 3);
+  EXPECT_TRUE(seen[0].isApprox(onRay(0, 0, 1.0) - 0.01 * onRay(0, 0, 1.0).normalized(), 1e-6));
+}
+
+TEST_F(DepthMotionTest, WhereTheRobotHasHiddenAllSinceTheBeginningNoPointIsRemembered) {
+  std::vector<float> robot = wall(7.0F);  // beyond the range
+  at(robot, 26, 18) = 0.5F;
+  take(robot, 0.0, {boxAt(0.5)});
+  const auto points = surface_.points(robot, robot.size());
+  ASSERT_EQ(points.size(), 1U);
+  EXPECT_EQ(points[0].kind, PointKind::kSelf);
+  EXPECT_EQ(surface_.hidden(), 0U);
+}
+
+TEST_F(DepthMotionTest, PointsOfALargeImageAreFewerAllOverThePicture) {
+  X_FC_ = placedAt(0.1, 0.2, 0.3);
+  take(wall(1.0F), 0.0);
+  const auto points = surface_.points(wall(1.0F), 300);
+  EXPECT_EQ(points.size(), 18U * 13U) << "every third column and row";
+  EXPECT_TRUE(points.front().p_F.cast<double>().isApprox(X_FC_ * onRay(0, 0, 1.0), 1e-6));
+  EXPECT_TRUE(points.back().p_F.cast<double>().isApprox(X_FC_ * onRay(51, 36, 1.0), 1e-6));
+}
+
 // As of a black one, or in its shadow.
 TEST_F(DepthMotionTest, WhatARobotWithoutDepthHidesStaysWhereItWasSeen) {
   take(wall(1.0F), 0.0);

@@ -2,13 +2,18 @@
 #include <gtest/gtest.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
+#include <sensor_msgs/PointCloud2.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <map>
+#include <mutex>
 #include <string>
+#include <vector>
 
 #include "guard_probe.h"
 #include "refusal.h"
@@ -191,6 +196,74 @@ TEST_F(CameraTest, WhereTheCameraDoesNotSeeTheToolGoingItIsUnknownAndNotReflex) 
   EXPECT_TRUE(warning.considered);
   EXPECT_TRUE(has(warning.text, "cameras see")) << warning.text;
   stepUntil(table, kOverTable, isClear);
+}
+
+// The colors of doc/rviz.md.
+constexpr std::uint32_t kSeen = 0xD6CCBD;
+constexpr std::uint32_t kRemembered = 0x339999;
+constexpr std::uint32_t kSelf = 0x5980E6;
+
+// The newest points that rviz would draw.
+class CloudListener {
+ public:
+  using Points = std::map<std::uint32_t, std::vector<Eigen::Vector3f>>;  // by color
+
+  std_msgs::Header header() const {
+    const std::lock_guard lock(mutex_);
+    return newest_.header;
+  }
+
+  Points points() const {
+    const std::lock_guard lock(mutex_);
+    Points points;
+    for (size_t i = 0; i + 16 <= newest_.data.size(); i += newest_.point_step) {
+      std::array<float, 3> p;
+      std::uint32_t rgb = 0;
+      std::memcpy(p.data(), &newest_.data[i + newest_.fields.at(0).offset], sizeof(p));
+      std::memcpy(&rgb, &newest_.data[i + newest_.fields.at(3).offset], sizeof(rgb));
+      points[rgb].emplace_back(p[0], p[1], p[2]);
+    }
+    return points;
+  }
+
+ private:
+  void take(const sensor_msgs::PointCloud2& cloud) {
+    const std::lock_guard lock(mutex_);
+    newest_ = cloud;
+  }
+
+  mutable std::mutex mutex_;
+  sensor_msgs::PointCloud2 newest_;
+  ros::Subscriber subscriber_ = ros::NodeHandle().subscribe<sensor_msgs::PointCloud2>(
+      "/sweep_guard/cameras/front", 1, [this](const auto& cloud) { take(*cloud); });
+};
+
+// The upper end of the drill is at 0.4 m. The table counts as 1 mm nearer to the camera.
+TEST_F(CameraTest, RvizIsShownTheSurfaceWhatTheToolHidesOfItAndTheTool) {
+  const CloudListener cloud;
+  const Scene with_tool = [](double x, double y) { return std::hypot(x, y) < 0.02 ? 0.4 : 0.0; };
+  stepUntil(table, kOverTable, isClear);
+  stepUntil(with_tool, kOverTable, [&](const Warning&) { return cloud.points().size() == 3; });
+  const auto expectAt = [points = cloud.points()](std::uint32_t kind, double height, double nearest, double farthest) {
+    ASSERT_EQ(points.count(kind), 1U) << kind;
+    for (const Eigen::Vector3f& p : points.at(kind)) {
+      EXPECT_NEAR(p.z(), height, 3e-4) << kind;
+      EXPECT_GE(p.head<2>().norm(), nearest) << kind;
+      EXPECT_LE(p.head<2>().norm(), farthest) << kind;
+    }
+  };
+  expectAt(kSelf, 0.4, 0.0, 0.012);
+  expectAt(kRemembered, 0.001, 0.0, 0.02);
+  expectAt(kSeen, 0.001, 0.0199, 1.0);
+  EXPECT_EQ(cloud.points().at(kSeen).size() + cloud.points().at(kRemembered).size(), kColumns * kRows);
+  EXPECT_EQ(cloud.header().frame_id, "world");
+  EXPECT_LE(cloud.header().stamp, probe().time());
+  const auto status = probe().awaitStatus("camera front", [](const GuardProbe::Status& next) {
+    return std::atof(valueOf(next, "pixels remembered behind it [%]").c_str()) > 0.0;
+  });
+  EXPECT_EQ(valueOf(status, "pixels remembered behind it [%]"), valueOf(status, "pixels of the robot itself [%]"));
+  EXPECT_EQ(valueOf(status, "pixels with a surface [%]"), "100.0");
+  EXPECT_NE(valueOf(status, "delay until taken [s]"), "");
 }
 
 TEST_F(CameraTest, AnImageThatCannotBeReadIsUnknownInWordsUntilTheNext) {

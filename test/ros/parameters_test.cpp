@@ -448,6 +448,8 @@ TEST_F(ParametersTest, AnEntryOfACameraThatDoesNotFitIsRefusedWithWhatIsWanted) 
   pair[1] = 1.0;
   refused("range", pair, "must be with range: [nearest, farthest]");
   refused("id", "", "must be a list of groups that each have id: TEXT, not empty");
+  for (const char* const id : {"front left", "front-left", "front/left", "~front"})
+    refused("id", id, "must be with ids of at most 128 letters, digits and _");
   refused("depth", 7, "must be a list of groups that each have depth: TEXT, not empty");
   refused("timeout", 0.0, "must be with timeout: [s] a number from 0.01 to 60");
   refused("surface_sped", 1.0, "must be without surface_sped, of which a camera has none");

@@ -59,6 +59,7 @@ CameraInput::CameraInput(const ros::NodeHandle& node, const CameraParameters& ca
       dependencies_(dependencies),
       topic_(node.resolveName(camera.depth)),
       info_topic_(node.resolveName(infoTopicOf(topic_))),
+      points_(dependencies.private_node, camera.id, dependencies.parameters),
       self_(dependencies.parameters, dependencies.frames, dependencies.poses),
       worker_(kMaxWaiting),
       images_(isCompressed(topic_) ? subscribe<sensor_msgs::CompressedImage>(node)
@@ -92,19 +93,21 @@ std::optional<CameraInput::Shares> CameraInput::shares() const {
   return shares_;
 }
 
-void CameraInput::keepShares(SteadyTime received) {
+void CameraInput::keepShares(const sweep_guard_core::Timestamps& image) {
   const auto share = [](size_t part, size_t all) { return static_cast<double>(part) / static_cast<double>(all); };
   Shares shares{share(surface_->seen(), depths_.size()),
                 share(surface_->self(), depths_.size()),
+                share(surface_->hidden(), depths_.size()),
                 self_.unplaced().size(),
                 std::nullopt,
                 surface_->rests(),
-                false};
+                false,
+                sweep_guard_core::toSeconds(now().stamp - image.stamp)};
   const auto [points, found] = surface_->compare(depths_, self_.toolPoints(), camera_.self_padding);
   if (points >= kLeastPoints) shares.tool_found = share(found, points);
   if (!shares.tool_found || *shares.tool_found >= kLeastFound) misplaced_since_.reset();
-  if (shares.tool_found && *shares.tool_found < kLeastFound && !misplaced_since_) misplaced_since_ = received;
-  shares.misplaced = misplaced_since_ && received - *misplaced_since_ >= kPatience;
+  if (shares.tool_found && *shares.tool_found < kLeastFound && !misplaced_since_) misplaced_since_ = image.received;
+  shares.misplaced = misplaced_since_ && image.received - *misplaced_since_ >= kPatience;
   const sweep_guard_core::Lock lock(shares_mutex_);
   shares_ = shares;
 }
@@ -121,7 +124,7 @@ void CameraInput::take(const Msg& msg, SteadyTime received) {
     surface_->take(depths_, X_WC, secondsSince(stamp), self_.at(stamp, camera_.self_padding));
     newest_ = stamp;
     ++number_;
-    keepShares(received);
+    keepShares({stamp, received});
     image = unusedImage();
     image->mesh_M.deform(surface_->places_F(), surface_->before_F(), surface_->existing());
     image->stamp = stamp;
@@ -132,6 +135,7 @@ void CameraInput::take(const Msg& msg, SteadyTime received) {
     return refuse(error.what(), received);
   }
   if (!dependencies_.show(image)) drop(received);
+  points_.publish(*surface_, depths_, *newest_);
 }
 
 // Begins anew with a camera of another size or calibration, and after another tool, in whose place the surroundings were seen.

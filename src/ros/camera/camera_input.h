@@ -19,6 +19,7 @@
 #include "ros/connection/bounded.h"
 #include "ros/input/frames.h"
 #include "ros/input/worker.h"
+#include "ros/output/points_publisher.h"
 #include "ros/parameters/camera_parameters.h"
 #include "ros/parameters/live_parameters.h"
 #include "ros/process/log_throttle.h"
@@ -31,6 +32,7 @@ namespace sweep_guard_ros {
 inline std::string frameUserOf(const std::string& camera) { return "camera '" + camera + "'"; }
 
 struct CameraInputDependencies {
+  ros::NodeHandle private_node;  ///< publishes the points
   Frames& frames;
   const LiveParameters& parameters;
   sweep_guard_core::WarningMonitor& monitor;
@@ -59,11 +61,13 @@ class CameraInput {
   struct Shares {
     double seen;            ///< where there is a surface
     double self;            ///< that show the robot
+    double hidden;          ///< where it hides a surface that was seen before
     size_t unplaced_links;  ///< of the robot description, that tf did not know at its stamp: they count as surroundings
     /// Of the points of the tool in the picture, the share that shows the tool; empty: too few are in it.
     std::optional<double> tool_found;
     bool rests;      ///< the camera: what the robot hides is remembered
     bool misplaced;  ///< for 5 s, less than half of the tool is where it is expected
+    double delay;    ///< from its stamp until its surface was found [s]
   };
   std::optional<Shares> shares() const;  ///< of the newest image; empty: none has come
 
@@ -76,7 +80,7 @@ class CameraInput {
   double secondsSince(sweep_guard_core::Time stamp) const;
   Eigen::Isometry3d locate(const std::string& frame, sweep_guard_core::Time stamp);
   std::shared_ptr<sweep_guard_core::Workpiece> unusedImage();
-  void keepShares(sweep_guard_core::SteadyTime received);
+  void keepShares(const sweep_guard_core::Timestamps& image);
   void refuse(const std::string& why, sweep_guard_core::SteadyTime received);
   void drop(sweep_guard_core::SteadyTime received);
 
@@ -93,6 +97,7 @@ class CameraInput {
   sensor_msgs::CameraInfo::ConstPtr info_ GUARDED_BY(info_mutex_);  // the newest
 
   // Used by the thread that takes the images:
+  PointsPublisher points_;
   SelfVolumes self_;
   std::string frame_;
   ImageSize size_{};

@@ -14,7 +14,8 @@ constexpr std::uint32_t kSilentInputs =
 
 }  // namespace
 
-Inputs::Inputs(const ros::NodeHandle& node, GuardState& state, MasterThread& master)
+Inputs::Inputs(const ros::NodeHandle& node, const ros::NodeHandle& private_node, GuardState& state,
+               MasterThread& master)
     : state_(state),
       poses_(node, state.parameters,
              {state.frames, state.workpieces, state.monitor, state.queue, state.frame_motions, state.recent_poses}),
@@ -22,7 +23,7 @@ Inputs::Inputs(const ros::NodeHandle& node, GuardState& state, MasterThread& mas
       other_tools_(node, state.parameters.initial(),
                    {[this](const Worker::Job& job) { meshes_.changeStore(job); }, state.workpieces, state.frame_motions,
                     state.monitor}),
-      cameras_(node, {state.frames, state.parameters, state.monitor, state.recent_poses,
+      cameras_(node, {private_node, state.frames, state.parameters, state.monitor, state.recent_poses,
                       [&state](const auto& image) { return state.queue.show(image); }}),
       peer_watch_(master, [&state, warning = sweep_guard_core::Warning()]() mutable {
         state.monitor.warning(now(), warning);

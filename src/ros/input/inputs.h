@@ -14,7 +14,7 @@ namespace sweep_guard_ros {
 class Inputs {
  public:
   /// @param master  looks for publishers; must be stopped before this is destroyed
-  Inputs(const ros::NodeHandle& node, GuardState& state, MasterThread& master);
+  Inputs(const ros::NodeHandle& node, const ros::NodeHandle& private_node, GuardState& state, MasterThread& master);
 
   void start();
   void takeEarly() { meshes_.takeEarly(); }               ///< as MeshInput

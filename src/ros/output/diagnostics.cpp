@@ -185,6 +185,8 @@ void Diagnostics::camera(Status& status, const CameraInput& camera, Counts& prev
   if (const auto shares = camera.shares()) {
     status.addf("pixels with a surface [%]", "%.1f", 100.0 * shares->seen);
     status.addf("pixels of the robot itself [%]", "%.1f", 100.0 * shares->self);
+    status.addf("pixels remembered behind it [%]", "%.1f", 100.0 * shares->hidden);
+    status.addf("delay until taken [s]", "%.3f", shares->delay);
     status.add("camera", shares->rests ? "rests" : "moves: what the robot hides is not remembered");
     if (shares->tool_found) status.addf("tool where it is expected [%]", "%.0f", 100.0 * *shares->tool_found);
     if (shares->misplaced)

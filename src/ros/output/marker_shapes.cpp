@@ -83,6 +83,12 @@ std_msgs::ColorRGBA color(double r, double g, double b, double alpha) {
   return color;
 }
 
+std_msgs::ColorRGBA workpieceColor(double alpha) { return color(0.84, 0.80, 0.74, alpha); }
+
+std_msgs::ColorRGBA rememberedColor(double alpha) { return color(0.20, 0.60, 0.60, alpha); }
+
+std_msgs::ColorRGBA toolColor(double alpha) { return color(0.35, 0.5, 0.9, alpha); }
+
 std_msgs::ColorRGBA levelColor(WarningLevel level, double alpha) {
   const auto& [red, green, blue] = styleOf(level).rgb;
   return color(red / 255.0, green / 255.0, blue / 255.0, alpha);

@@ -18,6 +18,10 @@ namespace sweep_guard_ros {
 /// Makes a color. Components and alpha are in [0, 1].
 std_msgs::ColorRGBA color(double r, double g, double b, double alpha);
 
+std_msgs::ColorRGBA workpieceColor(double alpha);
+std_msgs::ColorRGBA rememberedColor(double alpha);  ///< of surfaces that the robot hides from a camera
+std_msgs::ColorRGBA toolColor(double alpha);
+
 /// Returns the color of a level (kLevelStyles) with this alpha.
 std_msgs::ColorRGBA levelColor(sweep_guard_core::WarningLevel level, double alpha);
 

@@ -149,13 +149,13 @@ Marker workpieceMarker(const sweep_guard_core::Workpiece& workpiece, int id, swe
   drawn.frame_locked = 1U;  // follows its frame until it is drawn anew
   sweep_guard_core::beat();
   if (fits) {
-    drawn.color = color(0.84, 0.80, 0.74, 1.0);
+    drawn.color = workpieceColor(1.0);
     addSurface(drawn, workpiece.mesh_M);
     return drawn;
   }
   drawn.pose.position = point(workpiece.mesh_M.bounds_M().center());
   drawn.scale.z = kTextHeight;
-  drawn.color = color(0.84, 0.80, 0.74, 0.95);
+  drawn.color = workpieceColor(0.95);
   drawn.text = "'" + sweep_guard_core::printable(workpiece.id) + "' is not drawn:\nmore than " +
                std::to_string(kMaxMarkedTriangles) + " triangles in all";
   return drawn;
@@ -268,7 +268,7 @@ void Markers::addMeasured(visualization_msgs::MarkerArray& array, const MarkerSc
   const WarningLevel level = scene.warning.level;
   const sweep_guard_core::Time stamp = scene.newest->end;
   Marker tool = marker("tool", 0, Marker::CYLINDER, fixed_frame_, stamp);
-  tool.color = unlessUnknown(level, color(0.35, 0.5, 0.9, 0.8));
+  tool.color = unlessUnknown(level, toolColor(0.8));
   addTool(array, tool, *scene.bodies, bodyPoses(scene));
 
   Marker text = marker("warning_text", 0, Marker::TEXT_VIEW_FACING, fixed_frame_, stamp);

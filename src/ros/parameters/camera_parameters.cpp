@@ -1,5 +1,7 @@
 #include "ros/parameters/camera_parameters.h"
 
+#include <ros/names.h>
+
 #include <algorithm>
 #include <array>
 #include <set>
@@ -70,7 +72,10 @@ class GroupReader {
 CameraParameters cameraOf(GroupReader& group) {
   CameraParameters camera;
   camera.id = group.text("id");
-  if (!sweep_guard_core::isName(camera.id)) GroupReader::refuse("with ids of at most 128 printable characters");
+  std::string error;
+  if (!sweep_guard_core::isName(camera.id) || !ros::names::validate("cameras/" + camera.id, error) ||
+      camera.id.find('/') != std::string::npos)
+    GroupReader::refuse("with ids of at most 128 letters, digits and _, which the topic ~cameras/ID may have");
   camera.depth = group.text("depth");
   const auto [nearest, farthest] = group.pair("range", {0.1, 4.0}, {0.001, 1000.0, "m"});
   if (!(nearest < farthest)) GroupReader::refuse("with range: [nearest, farthest]");
@@ -92,8 +97,8 @@ std::vector<CameraParameters> readCameras(ParameterReader& read) {
       "a list of groups {id: TEXT, depth: TEXT, range: [NUMBER, NUMBER], margin: [NUMBER, NUMBER], timeout: "
       "NUMBER, surface_speed: NUMBER, self_padding: NUMBER, remember: NUMBER}, of which only id and depth are needed, "
       "or []",
-      "Depth cameras: what each sees is a workpiece by its id, and must be there. depth: topic of images, "
-      "sensor_msgs/Image, or of compressedDepth (png) if it ends so; camera_info is expected beside it. range "
+      "Depth cameras: what each sees is a workpiece by its id (letters, digits, _), and must be there. depth: topic of "
+      "images, sensor_msgs/Image, or of compressedDepth (png) if it ends so; camera_info is expected beside it. range "
       "[m]: depths that count. margin [m, 1/m]: a surface at depth z counts as nearer to the camera by the first "
       "plus the second times z^2: the error of the camera. timeout [s]: an older image makes the warning UNKNOWN. "
       "surface_speed [m/s]: what moves no faster along a ray of the camera is swept on its way. self_padding [m]: "

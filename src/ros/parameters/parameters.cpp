@@ -247,8 +247,9 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
       toDuration(1.0 / read.live().number("timing/min_rate", 15.0, {1.0, 1000.0, "Hz"},
                                           "Poses are swept, and the path ahead is tested, at least this "
                                           "often."));
-  parameters.marker_rate = read.live().number("timing/marker_rate", 15.0, {0.1, 100.0, "Hz"},
-                                              "~markers are published at most this often, and only to subscribers.");
+  parameters.marker_rate =
+      read.live().number("timing/marker_rate", 15.0, {0.1, 100.0, "Hz"},
+                         "~markers and ~cameras/ID are published at most this often, and only to subscribers.");
   for (const std::string& name : markerNamespaces()) {
     const std::string bound = name == "workpieces" ? " What is beyond " + std::to_string(kMaxMarkedTriangles) +
                                                          " triangles in all is a text in its place."
