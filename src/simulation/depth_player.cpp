@@ -1,0 +1,180 @@
+#include <geometry_msgs/PoseStamped.h>
+#include <ros/ros.h>
+#include <rosbag/view.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <tf2_eigen/tf2_eigen.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "recording/bag.h"
+#include "recording/run_node.h"
+#include "simulation/camera_pose.h"
+#include "simulation/depth_recording.h"
+#include "simulation/motion_start.h"
+#include "simulation/workpiece_messages.h"
+#include "sweep_guard/DeformableMesh.h"
+#include "sweep_guard/common/quantile.h"
+#include "sweep_guard/ros/parameters/parameter_reader.h"
+
+namespace sweep_guard_simulation {
+namespace {
+
+const ros::Duration kMaxDelay(2.0);  // of a message that is stamped by the recorder's clock
+const ros::Duration kPause(0.033);   // between the end and the begin
+
+/// Plays the depth images of a bag again and again, as if they came now: images, camera_info and transforms, from the first pose
+/// of the tool on. Where tf does not place the camera, it looks down at the middle of what it sees first. Publishes that surface as a mesh,
+/// which a motion can be made for.
+class DepthPlayer {
+ public:
+  explicit DepthPlayer(sweep_guard_ros::ParameterReader& parameters)
+      : path_(parameters.text("bag", "")),
+        requested_(parameters.text("topic", "")),
+        frame_(parameters.name("frame", "world")),
+        target_W_(parameters.position("look_at", {0.0, 0.0, 0.5})),
+        direction_W_(parameters.position("direction", {0.35, 0.4, 0.55})) {
+    images_ = node_.advertise<sensor_msgs::Image>("camera/depth/image_rect", 10);
+    infos_ = node_.advertise<sensor_msgs::CameraInfo>("camera/depth/camera_info", 10);
+    transforms_ = node_.advertise<tf2_msgs::TFMessage>("/tf", 100);
+    static_transforms_ = node_.advertise<tf2_msgs::TFMessage>("/tf_static", 1, /*latch=*/true);
+    mesh_ = node_.advertise<sweep_guard::DeformableMesh>("mesh", 1, /*latch=*/true);
+    pose_ = node_.subscribe<geometry_msgs::PoseStamped>("tool_pose", 1, [this](const auto&) { moves_ = true; });
+  }
+
+  void run() {
+    ros::Time::waitForValid();
+    sweep_guard_recording::openBag(path_, [this](const rosbag::Bag& bag) {
+      recording_ = inspectDepthBag(bag, requested_);
+      place(bag);
+      publishMesh();
+      if (!waitUntil([this] { return moves_; }, "the tool to move")) return;
+      ROS_INFO("playing %s of %s", recording_.topic.c_str(), path_.c_str());
+      while (ros::ok()) play(bag);
+    });
+  }
+
+ private:
+  std::vector<std::string> topics() const { return {recording_.topic, recording_.info_topic, "/tf", "tf"}; }
+
+  // The transforms before the first image come at once: the motion may need them.
+  void place(const rosbag::Bag& bag) {
+    tf2_msgs::TFMessage placed;
+    const std::vector<std::string> tf_static = {"/tf_static", "tf_static"};
+    for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery(tf_static))) {
+      if (const auto transforms = message.instantiate<tf2_msgs::TFMessage>())
+        placed.transforms.insert(placed.transforms.end(), transforms->transforms.begin(), transforms->transforms.end());
+    }
+    if (recording_.root != frame_) placed.transforms.push_back(rootTransform());
+    for (geometry_msgs::TransformStamped& transform : placed.transforms) transform.header.stamp = ros::Time::now();
+    static_transforms_.publish(placed);
+    for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery(topics()))) {
+      if (message.getTopic() == recording_.topic) return;
+      if (message.getTopic() != recording_.info_topic) publish(message, ros::Time::now() - message.getTime());
+    }
+  }
+
+  geometry_msgs::TransformStamped rootTransform() const {
+    geometry_msgs::TransformStamped transform;
+    const std::string child = recording_.root.empty() ? recording_.frame : recording_.root;
+    transform = tf2::eigenToTransform(recording_.root.empty() ? assumedPose() : Eigen::Isometry3d::Identity());
+    transform.header.frame_id = frame_;
+    transform.child_frame_id = child;
+    if (recording_.root.empty())
+      ROS_WARN("tf in the bag does not place '%s': it is put where what it sees first is before it", child.c_str());
+    return transform;
+  }
+
+  Eigen::Isometry3d assumedPose() const {
+    std::vector<double> seen;
+    std::copy_if(recording_.depths.begin(), recording_.depths.end(), std::back_inserter(seen),
+                 [](float depth) { return !std::isnan(depth); });
+    if (seen.empty()) throw sweep_guard_core::InvalidInput("the first image has no depth in any pixel");
+    return lookingAt(target_W_, target_W_ + sweep_guard_core::quantile(seen, 0.5) * direction_W_.normalized());
+  }
+
+  void publishMesh() {
+    const VisibleSurface surface = surfaceOf(recording_);
+    sweep_guard::DeformableMesh message = meshMessage(surface.positions_S, surface.triangles);
+    message.header.stamp = ros::Time::now();
+    message.header.frame_id = recording_.frame;
+    message.id = "first image";
+    message.open = 1;
+    mesh_.publish(message);
+  }
+
+  void play(const rosbag::Bag& bag) {
+    rosbag::View view(bag, rosbag::TopicQuery(topics()));
+    const ros::Duration later = ros::Time::now() - view.getBeginTime();
+    for (const rosbag::MessageInstance& message : view) {
+      while (ros::ok() && ros::Time::now() < message.getTime() + later) ros::Duration(0.001).sleep();
+      if (!ros::ok()) return;
+      publish(message, later);
+      ros::spinOnce();
+    }
+    kPause.sleep();
+  }
+
+  void publish(const rosbag::MessageInstance& message, const ros::Duration& later) {
+    if (const auto transforms = message.instantiate<tf2_msgs::TFMessage>()) {
+      for (geometry_msgs::TransformStamped& transform : transforms->transforms)
+        transform.header.stamp = stampOf(transform.header.stamp, message.getTime()) + later;
+      transforms_.publish(transforms);
+    } else if (const auto info = message.instantiate<sensor_msgs::CameraInfo>()) {
+      info->header.stamp = stampOf(info->header.stamp, message.getTime()) + later;
+      infos_.publish(info);
+    } else {
+      publishImage(message, later);
+    }
+  }
+
+  void publishImage(const rosbag::MessageInstance& message, const ros::Duration& later) {
+    sensor_msgs::Image image;
+    sweep_guard_ros::ImageSize size{};
+    image.header = readImage(message, size, depths_);
+    image.header.stamp = stampOf(image.header.stamp, message.getTime()) + later;
+    image.encoding = "32FC1";
+    image.width = size.width;
+    image.height = size.height;
+    image.step = size.width * sizeof(float);
+    image.data.resize(depths_.size() * sizeof(float));
+    std::memcpy(image.data.data(), depths_.data(), image.data.size());
+    images_.publish(image);
+  }
+
+  static ros::Time stampOf(const ros::Time& stamp, const ros::Time& recorded) {
+    const ros::Duration delay = recorded - stamp;
+    if (delay < kMaxDelay && delay > -kMaxDelay) return stamp;
+    ROS_WARN_ONCE("stamps in the bag are by another clock: each is taken as when it was recorded");
+    return recorded;
+  }
+
+  const std::string path_;
+  const std::string requested_;
+  const std::string frame_;
+  const Eigen::Vector3d target_W_;     // [m]
+  const Eigen::Vector3d direction_W_;  // from there to the camera
+  DepthRecording recording_;
+  std::vector<float> depths_;
+  bool moves_ = false;  // the tool
+  ros::NodeHandle node_;
+  ros::Publisher images_;
+  ros::Publisher infos_;
+  ros::Publisher transforms_;
+  ros::Publisher static_transforms_;
+  ros::Publisher mesh_;
+  ros::Subscriber pose_;
+};
+
+}  // namespace
+}  // namespace sweep_guard_simulation
+
+int main(int argc, char** argv) {
+  return sweep_guard_recording::runNode<sweep_guard_simulation::DepthPlayer>(argc, argv, "depth_player");
+}
