@@ -66,7 +66,8 @@ po::options_description describe(Arguments& arguments) {
   options.add_options()("help,h", po::bool_switch(&arguments.help), "print this text")(
       "joints", po::bool_switch(&arguments.joints), "joints move the tool: count their states as poses")(
       "elastic", po::bool_switch(&arguments.elastic), "also report how far the workpiece gives way, and the force")(
-      "camera", po::bool_switch(&arguments.camera), "the guard has a depth camera alone: count its images")(
+      "camera", po::bool_switch(&arguments.camera),
+      "the guard has a depth camera in place of the mesh: count its images")(
       "duration", po::value(&arguments.duration)->value_name("S"),
       "seconds from the first pose, at most 1e6; 0 (default): until the operator ends or Ctrl-C")(
       "latency-csv", po::value(&arguments.latency_csv)->value_name("FILE"),
@@ -125,7 +126,7 @@ class DemoMonitor {
                  "no publisher of " + contacts_.getTopic() + "; start the guard, or remap contacts to it")) {
       return;
     }
-    if (!waitFor([this] { return workpiece_known_ || !workpiece_expected_; },
+    if (!waitFor([this] { return workpiece_known_; },
                  "the guard knows no workpiece; start one, or see the guard's log")) {
       return;
     }
@@ -149,9 +150,7 @@ class DemoMonitor {
     };
     return node_.subscribe<Message>(topic, kQueue, add, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
   }
-  // They begin with the motion of the tool.
   void countImages() {
-    workpiece_expected_ = false;
     statistics_.addImages(0);
     const auto count = [this](const sensor_msgs::CameraInfo::ConstPtr& /*any*/) { statistics_.addImages(1); };
     camera_info_ = node_.subscribe<sensor_msgs::CameraInfo>("camera/depth/camera_info", kQueue, count);
@@ -233,7 +232,6 @@ class DemoMonitor {
   DemoStatistics statistics_;
   std::vector<Eigen::Vector3d> rest_;  // vertices of an elastic workpiece as they were first [m]
   bool workpiece_known_ = false;       // to the guard
-  bool workpiece_expected_ = true;     // before the tool moves
   bool settling_ = false;              // only late answers count
   std::string level_ = "-";
   ros::NodeHandle node_;

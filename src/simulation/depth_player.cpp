@@ -28,6 +28,7 @@ namespace {
 
 const ros::Duration kMaxDelay(2.0);  // of a message that is stamped by the recorder's clock
 const ros::Duration kPause(0.033);   // between the end and the begin
+const ros::Duration kLead(0.2);      // of the tool: it has a pose before the stamp of the first image
 
 /// Plays the depth images of a bag again and again, as if they came now: images, camera_info and transforms, from the first pose
 /// of the tool on. Where tf does not place the camera, it looks down at the middle of what it sees first. Publishes that surface as a mesh,
@@ -56,6 +57,7 @@ class DepthPlayer {
       publishMesh();
       if (!waitUntil([this] { return moves_; }, "the tool to move")) return;
       ROS_INFO("playing %s of %s", recording_.topic.c_str(), path_.c_str());
+      kLead.sleep();
       while (ros::ok()) play(bag);
     });
   }
