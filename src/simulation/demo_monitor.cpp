@@ -152,7 +152,9 @@ class DemoMonitor {
   }
   void countImages() {
     statistics_.addImages(0);
-    const auto count = [this](const sensor_msgs::CameraInfo::ConstPtr& /*any*/) { statistics_.addImages(1); };
+    const auto count = [this](const sensor_msgs::CameraInfo::ConstPtr& info) {
+      if (!info->header.stamp.isZero()) statistics_.addImages(1);
+    };
     camera_info_ = node_.subscribe<sensor_msgs::CameraInfo>("camera/depth/camera_info", kQueue, count);
   }
   void onMesh(const sweep_guard::DeformableMesh::ConstPtr& mesh) {

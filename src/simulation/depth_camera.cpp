@@ -64,7 +64,8 @@ class DepthCamera {
     addTool(*sweep_guard_ros::loadParameters(ros::NodeHandle(parameters.text("guard", "sweep_guard"))).tool);
     makeMessages();
     images_ = node_.advertise<sensor_msgs::Image>("camera/depth/image_rect", 10);
-    infos_ = node_.advertise<sensor_msgs::CameraInfo>("camera/depth/camera_info", 10);
+    infos_ = node_.advertise<sensor_msgs::CameraInfo>("camera/depth/camera_info", 10, /*latch=*/true);
+    infos_.publish(info_);  // without a stamp: before the first image, which is of no use without it
     const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
     mesh_subscriber_ = node_.subscribe("mesh", 1, &DepthCamera::onMesh, this);
     vertices_subscriber_ = node_.subscribe("mesh_vertices", kQueue, &DepthCamera::onVertices, this, hints);

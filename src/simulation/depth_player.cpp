@@ -42,7 +42,7 @@ class DepthPlayer {
         target_W_(parameters.position("look_at", {0.0, 0.0, 0.5})),
         direction_W_(parameters.position("direction", {0.35, 0.4, 0.55})) {
     images_ = node_.advertise<sensor_msgs::Image>("camera/depth/image_rect", 10);
-    infos_ = node_.advertise<sensor_msgs::CameraInfo>("camera/depth/camera_info", 10);
+    infos_ = node_.advertise<sensor_msgs::CameraInfo>("camera/depth/camera_info", 10, /*latch=*/true);
     transforms_ = node_.advertise<tf2_msgs::TFMessage>("/tf", 100);
     static_transforms_ = node_.advertise<tf2_msgs::TFMessage>("/tf_static", 1, /*latch=*/true);
     mesh_ = node_.advertise<sweep_guard::DeformableMesh>("mesh", 1, /*latch=*/true);
@@ -53,6 +53,7 @@ class DepthPlayer {
     ros::Time::waitForValid();
     sweep_guard_recording::openBag(path_, [this](const rosbag::Bag& bag) {
       recording_ = inspectDepthBag(bag, requested_);
+      infos_.publish(recording_.info);
       place(bag);
       publishMesh();
       if (!waitUntil([this] { return moves_; }, "the tool to move")) return;

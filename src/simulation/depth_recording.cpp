@@ -1,11 +1,11 @@
 #include "simulation/depth_recording.h"
 
 #include <rosbag/view.h>
-#include <sensor_msgs/CameraInfo.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "common/frame_name.h"
 #include "recording/bag.h"
@@ -110,6 +110,8 @@ DepthRecording inspectDepthBag(const rosbag::Bag& bag, const std::string& reques
   rosbag::View view(bag, rosbag::TopicQuery(recording.topic));
   recording.frame = sweep_guard_core::withoutSlash(readImage(*view.begin(), recording.size, recording.depths).frame_id);
   recording.camera = pinholeOf(*info, recording.size, sweep_guard_ros::isNamedRectified(recording.topic));
+  recording.info = *info;
+  recording.info.header.stamp = {};
   recording.root = rootOf(bag, recording.frame);
   return recording;
 }

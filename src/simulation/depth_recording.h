@@ -2,8 +2,8 @@
 
 #include <rosbag/bag.h>
 #include <rosbag/message_instance.h>
+#include <sensor_msgs/CameraInfo.h>
 
-#include <map>
 #include <string>
 #include <vector>
 
@@ -15,13 +15,14 @@ namespace sweep_guard_simulation {
 
 /// Depth images in a rosbag.
 struct DepthRecording {
-  std::string topic;                ///< of the images
-  std::string info_topic;           ///< of the camera_info beside them
-  std::string frame;                ///< of the first image
-  std::string root;                 ///< the frame that tf in the bag places `frame` in at last; empty: it does not
-  sweep_guard_ros::ImageSize size;  ///< of the first image
-  sweep_guard_core::Pinhole camera;
-  std::vector<float> depths;  ///< of the first image [m], row by row; NaN: nothing seen
+  std::string topic;                 ///< of the images
+  std::string info_topic;            ///< of the camera_info beside them
+  std::string frame;                 ///< of the first image
+  std::string root;                  ///< the frame that tf in the bag places `frame` in at last; empty: it does not
+  sweep_guard_ros::ImageSize size;   ///< of the first image
+  sensor_msgs::CameraInfo info;      ///< the first, without its stamp
+  sweep_guard_core::Pinhole camera;  ///< the same
+  std::vector<float> depths;         ///< of the first image [m], row by row; NaN: nothing seen
 };
 
 /// Reads the first depth image of a bag, and what there is to place it.
