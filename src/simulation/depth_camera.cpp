@@ -22,7 +22,6 @@
 #include "sweep_guard/DeformableMesh.h"
 #include "sweep_guard/MeshVertices.h"
 #include "sweep_guard/geometry/link_surface.h"
-#include "sweep_guard/geometry/motion.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_simulation {
@@ -37,6 +36,10 @@ constexpr sweep_guard_core::Pinhole kPinhole{585.0, 585.0, 320.0, 240.0};  // a 
 constexpr double kTable = 2.0;                                             // half of its width [m]
 constexpr sweep_guard_core::Duration kKept = std::chrono::seconds(1);      // of the poses
 constexpr std::uint32_t kQueue = 1000;
+constexpr const char* kFrame = "world";
+constexpr const char* kCameraFrame = "camera_depth_optical_frame";
+const ros::Duration kPeriod(1.0 / 30.0);
+const ros::Duration kDelay(0.065);  // 60 to 70 ms: a RealSense, as its makers say (librealsense, issue 1242)
 
 VisibleSurface table(const Eigen::Isometry3d& X_CW) {
   constexpr auto kEdge = static_cast<float>(kTable);
@@ -50,14 +53,9 @@ VisibleSurface table(const Eigen::Isometry3d& X_CW) {
 class DepthCamera {
  public:
   explicit DepthCamera(sweep_guard_ros::ParameterReader& parameters)
-      : frame_(parameters.name("frame", "world")),
-        camera_frame_(parameters.name("camera_frame", "camera_depth_optical_frame")),
-        X_CW_(lookingAt(parameters.position("look_at", {0.0, 0.0, 0.5}),
+      : X_CW_(lookingAt(parameters.position("look_at", {0.0, 0.0, 0.5}),
                         parameters.position("position", {0.35, 0.4, 1.05}))
                   .inverse()),
-        period_(1.0 / parameters.number("rate", 30.0, {1.0, 200.0})),
-        delay_(parameters.number("delay", 0.065, {0.0, 1.0})),  // 60 to 70 ms of a RealSense: librealsense, issue 1242
-        noise_(readNoise(parameters), /*seed=*/1),
         renderer_(kWidth, kHeight, kPinhole),
         listener_(buffer_),
         surfaces_{table(X_CW_), {}} {
@@ -77,7 +75,7 @@ class DepthCamera {
     broadcastFrame();
     for (ros::Rate rate(250.0); ros::ok(); rate.sleep()) {
       ros::spinOnce();
-      while (!waiting_.empty() && ros::Time::now() >= waiting_.front()->header.stamp + delay_) {
+      while (!waiting_.empty() && ros::Time::now() >= waiting_.front()->header.stamp + kDelay) {
         publish(*waiting_.front());
         waiting_.pop_front();
       }
@@ -85,13 +83,6 @@ class DepthCamera {
   }
 
  private:
-  static DepthNoise::Options readNoise(sweep_guard_ros::ParameterReader& parameters) {
-    DepthNoise::Options options;
-    options.deviation = parameters.number("noise", options.deviation, {0.0, 0.1});
-    options.step = parameters.number("step", options.step, {1e-5, 0.1});
-    return options;
-  }
-
   void addTool(const sweep_guard_core::Tool& tool) {
     for (sweep_guard_core::LinkSurface& link : sweep_guard_core::linkSurfaces(tool)) {
       VisibleSurface& surface = surfaces_.emplace_back();
@@ -103,13 +94,10 @@ class DepthCamera {
   }
 
   void makeMessages() {
-    info_.header.frame_id = image_.header.frame_id = camera_frame_;
+    info_.header.frame_id = image_.header.frame_id = kCameraFrame;
     info_.width = image_.width = kWidth;
     info_.height = image_.height = kHeight;
-    info_.distortion_model = "plumb_bob";
-    info_.D.resize(5);
     info_.K = {kPinhole.fx, 0.0, kPinhole.cx, 0.0, kPinhole.fy, kPinhole.cy, 0.0, 0.0, 1.0};
-    info_.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
     info_.P = {kPinhole.fx, 0.0, kPinhole.cx, 0.0, 0.0, kPinhole.fy, kPinhole.cy, 0.0, 0.0, 0.0, 1.0, 0.0};
     image_.encoding = "16UC1";
     image_.step = 2 * kWidth;
@@ -119,8 +107,8 @@ class DepthCamera {
   void broadcastFrame() {
     geometry_msgs::TransformStamped transform = tf2::eigenToTransform(X_CW_.inverse());
     transform.header.stamp = ros::Time::now();
-    transform.header.frame_id = frame_;
-    transform.child_frame_id = camera_frame_;
+    transform.header.frame_id = kFrame;
+    transform.child_frame_id = kCameraFrame;
     broadcaster_.sendTransform(transform);
   }
 
@@ -137,8 +125,8 @@ class DepthCamera {
   }
 
   bool locate(const std::string& frame) {
-    if (!buffer_.canTransform(frame_, frame, ros::Time(0))) return false;
-    workpiece().X_CS = X_CW_ * tf2::transformToEigen(buffer_.lookupTransform(frame_, frame, ros::Time(0)));
+    if (!buffer_.canTransform(kFrame, frame, ros::Time(0))) return false;
+    workpiece().X_CS = X_CW_ * tf2::transformToEigen(buffer_.lookupTransform(kFrame, frame, ros::Time(0)));
     return true;
   }
 
@@ -146,7 +134,7 @@ class DepthCamera {
   void onVertices(const sweep_guard::MeshVertices::ConstPtr& vertices) {
     if (poses_.empty() || vertices->positions.size() != 3 * vertex_count_) return;
     if (vertices->header.stamp < next_image_ || !locate(vertices->header.frame_id)) return;
-    next_image_ = vertices->header.stamp + period_ * 0.8;
+    next_image_ = vertices->header.stamp + kPeriod * 0.8;
     waiting_.push_back(vertices);
   }
 
@@ -157,15 +145,11 @@ class DepthCamera {
     poses_.push_back(next);
   }
 
+  // At the first pose not before the stamp: the guard takes all of the way to it for the tool.
   Eigen::Isometry3d toolAt(Time stamp) const {
-    const auto after = std::lower_bound(poses_.begin(), poses_.end(), stamp,
-                                        [](const StampedPose& pose, Time time) { return pose.stamp < time; });
-    if (after == poses_.end()) return poses_.back().X_WT;
-    if (after == poses_.begin()) return poses_.front().X_WT;
-    const StampedPose& before = *std::prev(after);
-    const double fraction =
-        sweep_guard_core::toSeconds(stamp - before.stamp) / sweep_guard_core::toSeconds(after->stamp - before.stamp);
-    return sweep_guard_core::Motion{before.X_WT, after->X_WT}.at(fraction);
+    const auto is_before = [](const StampedPose& pose, Time time) { return pose.stamp < time; };
+    const auto next = std::lower_bound(poses_.begin(), poses_.end(), stamp, is_before);
+    return (next == poses_.end() ? poses_.back() : *next).X_WT;
   }
 
   void publish(const sweep_guard::MeshVertices& vertices) {
@@ -179,11 +163,7 @@ class DepthCamera {
     images_.publish(image_);
   }
 
-  const std::string frame_;
-  const std::string camera_frame_;
   const Eigen::Isometry3d X_CW_;
-  const ros::Duration period_;
-  const ros::Duration delay_;
   DepthNoise noise_;
   DepthRenderer renderer_;
   ros::NodeHandle node_;

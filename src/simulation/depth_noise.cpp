@@ -11,9 +11,8 @@ constexpr float kMost = 65.0F;  // [m]
 
 }  // namespace
 
-DepthNoise::DepthNoise(const Options& options, std::uint32_t seed)
-    : step_(static_cast<float>(options.step)), random_(seed), noise_(kNoises) {
-  std::normal_distribution<float> normal(0.0F, static_cast<float>(options.deviation));
+DepthNoise::DepthNoise() : noise_(kNoises) {
+  std::normal_distribution<float> normal(0.0F, kDeviation);
   for (float& noise : noise_) noise = normal(random_);
 }
 
@@ -23,7 +22,7 @@ const std::vector<std::uint16_t>& DepthNoise::seen(const std::vector<float>& dep
   for (size_t i = 0; i < depths.size(); ++i, ++noise) {
     if (i % kRun == 0) noise = &noise_[random_() % (kNoises - kRun)];
     const float z = depths[i] + *noise * depths[i] * depths[i];
-    const float stepped = 1.0F / (step_ * std::round(1.0F / (step_ * z)));
+    const float stepped = 1.0F / (kStep * std::round(1.0F / (kStep * z)));
     image_[i] = stepped > 0.0F && stepped < kMost ? static_cast<std::uint16_t>(std::lround(1e3F * stepped)) : 0;
   }
   return image_;

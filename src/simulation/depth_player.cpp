@@ -26,9 +26,12 @@
 namespace sweep_guard_simulation {
 namespace {
 
-const ros::Duration kMaxDelay(2.0);  // of a message that is stamped by the recorder's clock
-const ros::Duration kPause(0.033);   // between the end and the begin
-const ros::Duration kLead(0.2);      // of the tool: it has a pose before the stamp of the first image
+constexpr const char* kFrame = "world";
+// Of a camera that tf does not place: what it looks at [m], and from where.
+const Eigen::Vector3d kTarget_W(0.0, 0.0, 0.5);
+const Eigen::Vector3d kTowards_W(0.35, 0.4, 0.55);
+const ros::Duration kPause(0.033);  // between the end and the begin
+const ros::Duration kLead(0.2);     // of the tool: it has a pose before the stamp of the first image
 
 /// Plays the depth images of a bag again and again, as if they came now: images, camera_info and transforms, from the first pose
 /// of the tool on. Where tf does not place the camera, it looks down at the middle of what it sees first. Publishes that surface as a mesh,
@@ -36,11 +39,7 @@ const ros::Duration kLead(0.2);      // of the tool: it has a pose before the st
 class DepthPlayer {
  public:
   explicit DepthPlayer(sweep_guard_ros::ParameterReader& parameters)
-      : path_(parameters.text("bag", "")),
-        requested_(parameters.text("topic", "")),
-        frame_(parameters.name("frame", "world")),
-        target_W_(parameters.position("look_at", {0.0, 0.0, 0.5})),
-        direction_W_(parameters.position("direction", {0.35, 0.4, 0.55})) {
+      : path_(parameters.text("bag", "")), requested_(parameters.text("topic", "")) {
     images_ = node_.advertise<sensor_msgs::Image>("camera/depth/image_rect", 10);
     infos_ = node_.advertise<sensor_msgs::CameraInfo>("camera/depth/camera_info", 10, /*latch=*/true);
     transforms_ = node_.advertise<tf2_msgs::TFMessage>("/tf", 100);
@@ -74,7 +73,7 @@ class DepthPlayer {
       if (const auto transforms = message.instantiate<tf2_msgs::TFMessage>())
         placed.transforms.insert(placed.transforms.end(), transforms->transforms.begin(), transforms->transforms.end());
     }
-    if (recording_.root != frame_) placed.transforms.push_back(rootTransform());
+    if (recording_.root != kFrame) placed.transforms.push_back(rootTransform());
     for (geometry_msgs::TransformStamped& transform : placed.transforms) transform.header.stamp = ros::Time::now();
     static_transforms_.publish(placed);
     for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery(topics()))) {
@@ -84,13 +83,12 @@ class DepthPlayer {
   }
 
   geometry_msgs::TransformStamped rootTransform() const {
-    geometry_msgs::TransformStamped transform;
-    const std::string child = recording_.root.empty() ? recording_.frame : recording_.root;
-    transform = tf2::eigenToTransform(recording_.root.empty() ? assumedPose() : Eigen::Isometry3d::Identity());
-    transform.header.frame_id = frame_;
-    transform.child_frame_id = child;
-    if (recording_.root.empty())
-      ROS_WARN("tf in the bag does not place '%s': it is put where what it sees first is before it", child.c_str());
+    const bool placed = !recording_.root.empty();
+    auto transform = tf2::eigenToTransform(placed ? Eigen::Isometry3d::Identity() : assumedPose());
+    transform.header.frame_id = kFrame;
+    transform.child_frame_id = placed ? recording_.root : recording_.frame;
+    if (!placed)
+      ROS_WARN("tf in the bag does not place '%s': it looks down at the workplace", recording_.frame.c_str());
     return transform;
   }
 
@@ -99,7 +97,7 @@ class DepthPlayer {
     std::copy_if(recording_.depths.begin(), recording_.depths.end(), std::back_inserter(seen),
                  [](float depth) { return !std::isnan(depth); });
     if (seen.empty()) throw sweep_guard_core::InvalidInput("the first image has no depth in any pixel");
-    return lookingAt(target_W_, target_W_ + sweep_guard_core::quantile(seen, 0.5) * direction_W_.normalized());
+    return lookingAt(kTarget_W, kTarget_W + sweep_guard_core::quantile(seen, 0.5) * kTowards_W.normalized());
   }
 
   void publishMesh() {
@@ -126,11 +124,10 @@ class DepthPlayer {
 
   void publish(const rosbag::MessageInstance& message, const ros::Duration& later) {
     if (const auto transforms = message.instantiate<tf2_msgs::TFMessage>()) {
-      for (geometry_msgs::TransformStamped& transform : transforms->transforms)
-        transform.header.stamp = stampOf(transform.header.stamp, message.getTime()) + later;
+      for (geometry_msgs::TransformStamped& transform : transforms->transforms) transform.header.stamp += later;
       transforms_.publish(transforms);
     } else if (const auto info = message.instantiate<sensor_msgs::CameraInfo>()) {
-      info->header.stamp = stampOf(info->header.stamp, message.getTime()) + later;
+      info->header.stamp += later;
       infos_.publish(info);
     } else {
       publishImage(message, later);
@@ -141,7 +138,7 @@ class DepthPlayer {
     sensor_msgs::Image image;
     sweep_guard_ros::ImageSize size{};
     image.header = readImage(message, size, depths_);
-    image.header.stamp = stampOf(image.header.stamp, message.getTime()) + later;
+    image.header.stamp += later;
     image.encoding = "32FC1";
     image.width = size.width;
     image.height = size.height;
@@ -151,18 +148,8 @@ class DepthPlayer {
     images_.publish(image);
   }
 
-  static ros::Time stampOf(const ros::Time& stamp, const ros::Time& recorded) {
-    const ros::Duration delay = recorded - stamp;
-    if (delay < kMaxDelay && delay > -kMaxDelay) return stamp;
-    ROS_WARN_ONCE("stamps in the bag are by another clock: each is taken as when it was recorded");
-    return recorded;
-  }
-
   const std::string path_;
   const std::string requested_;
-  const std::string frame_;
-  const Eigen::Vector3d target_W_;     // [m]
-  const Eigen::Vector3d direction_W_;  // from there to the camera
   DepthRecording recording_;
   std::vector<float> depths_;
   bool moves_ = false;  // the tool

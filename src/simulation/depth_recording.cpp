@@ -22,50 +22,16 @@ namespace {
 constexpr std::uint32_t kStride = 6;  // pixels
 constexpr float kStep = 0.05F;        // difference of depths, in parts of them
 
-template <typename Message>
-boost::shared_ptr<Message> firstOn(const rosbag::Bag& bag, const std::string& topic) {
-  rosbag::View view(bag, rosbag::TopicQuery(topic));
-  return view.begin() == view.end() ? nullptr : view.begin()->instantiate<Message>();
-}
-
-// Topics with depths; of the others why they are none.
-std::map<std::string, std::string> problemsByTopic(const rosbag::Bag& bag) {
-  const std::vector<std::string> types = {"sensor_msgs/Image", "sensor_msgs/CompressedImage"};
-  std::map<std::string, std::string> problems;
-  for (const rosbag::ConnectionInfo* connection : rosbag::View(bag, rosbag::TypeQuery(types)).getConnections()) {
-    rosbag::View view(bag, rosbag::TopicQuery(connection->topic));
-    try {
-      sweep_guard_ros::ImageSize size{};
-      std::vector<float> depths;
-      readImage(*view.begin(), size, depths);
-      problems[connection->topic] = "";
-    } catch (const InvalidInput& error) {
-      problems[connection->topic] = error.what();
-    }
+bool hasDepths(const rosbag::Bag& bag, const std::string& topic) {
+  try {
+    sweep_guard_ros::ImageSize size{};
+    std::vector<float> depths;
+    rosbag::View view(bag, rosbag::TopicQuery(topic));
+    readImage(*view.begin(), size, depths);
+    return true;
+  } catch (const InvalidInput&) {
+    return false;
   }
-  return problems;
-}
-
-std::string chooseDepths(const rosbag::Bag& bag, const std::string& requested) {
-  const auto problems = problemsByTopic(bag);
-  std::vector<std::string> topics;
-  std::string others;
-  for (const auto& [topic, problem] : problems) {
-    if (problem.empty())
-      topics.push_back(topic);
-    else
-      others += "; " + topic + ": " + problem;
-  }
-  const auto found = problems.find(requested);
-  if (found != problems.end() && !found->second.empty()) throw InvalidInput(requested + ": " + found->second);
-  if (topics.empty()) throw InvalidInput("no depth images in the bag; record a topic of them" + others);
-  if (found != problems.end()) return requested;
-  if (requested.empty() && topics.size() == 1) return topics.front();
-  std::string list;
-  for (const std::string& topic : topics) list += (list.empty() ? "" : ", ") + topic;
-  throw InvalidInput(
-      (requested.empty() ? "choose one topic of depth images (depth_topic:=TOPIC)" : "no images on " + requested) +
-      "; there are: " + list);
 }
 
 // Up to the frame without a parent, or one met before.
@@ -102,10 +68,16 @@ std_msgs::Header readImage(const rosbag::MessageInstance& message, sweep_guard_r
 }
 
 DepthRecording inspectDepthBag(const rosbag::Bag& bag, const std::string& requested) {
+  const sweep_guard_recording::TopicChoice depths = {
+      {"sensor_msgs/Image", "sensor_msgs/CompressedImage"},
+      "depth images (16UC1, 32FC1 or compressedDepth)",
+      "depth_topic:=TOPIC",
+      [&bag](const std::string& topic) { return hasDepths(bag, topic); }};
   DepthRecording recording;
-  recording.topic = chooseDepths(bag, requested);
+  recording.topic = sweep_guard_recording::chooseTopic(bag, requested, depths);
   recording.info_topic = sweep_guard_ros::infoTopicOf(recording.topic);
-  const auto info = firstOn<sensor_msgs::CameraInfo>(bag, recording.info_topic);
+  rosbag::View infos(bag, rosbag::TopicQuery(recording.info_topic));
+  const auto info = infos.size() > 0 ? infos.begin()->instantiate<sensor_msgs::CameraInfo>() : nullptr;
   if (!info) throw InvalidInput("no camera_info on " + recording.info_topic + ": record it beside the images");
   rosbag::View view(bag, rosbag::TopicQuery(recording.topic));
   recording.frame = sweep_guard_core::withoutSlash(readImage(*view.begin(), recording.size, recording.depths).frame_id);

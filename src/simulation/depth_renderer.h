@@ -6,19 +6,16 @@
 #include <vector>
 
 #include "camera/pinhole.h"
+#include "detection/offscreen_context.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
-
-namespace sweep_guard_core {
-class OffscreenContext;
-}
 
 namespace sweep_guard_simulation {
 
-/// Triangles that a camera sees.
+/// Triangles that a camera sees, from both sides.
 struct VisibleSurface {
   Eigen::Isometry3d X_CS = Eigen::Isometry3d::Identity();  ///< pose in the camera's optical frame C [m]
   std::vector<float> positions_S;                          ///< x0 y0 z0 x1 ... [m]
-  std::vector<sweep_guard_core::Triangle> triangles;       ///< seen from both sides
+  std::vector<sweep_guard_core::Triangle> triangles;
 };
 
 /// Renders depth images by OpenGL in software, without a window. One thread.
@@ -29,22 +26,18 @@ class DepthRenderer {
 
   /// @throws sweep_guard_core::DeviceError if there is no off-screen context, or it has no framebuffer of this size
   DepthRenderer(std::uint32_t width, std::uint32_t height, const sweep_guard_core::Pinhole& camera);
-  ~DepthRenderer();
 
   /// Returns the depth z of each pixel [m], row by row; NaN where nothing is seen. Valid until the next call.
   /// @throws sweep_guard_core::DeviceError if OpenGL fails
   const std::vector<float>& render(const std::vector<VisibleSurface>& surfaces);
 
  private:
-  struct Functions;
-
   void bindFramebuffer();
 
-  const std::uint32_t width_;
-  const std::uint32_t height_;
+  const int width_;
+  const int height_;
   const Eigen::Matrix4d projection_;
   std::unique_ptr<sweep_guard_core::OffscreenContext> context_;
-  std::unique_ptr<Functions> gl_;
   std::vector<float> depths_;
 };
 

@@ -53,7 +53,7 @@ bag=$ROS_HOME/depth.bag
 python3 "$here/depth_bag.py" "$bag"
 meets camera:=true
 meets "depth_bag:=$bag"
-plays_not 'no images on /other; there are: /camera/depth/image_rect' "depth_bag:=$bag" depth_topic:=/other
+plays_not ' on /other; there are: /camera/depth/image_rect' "depth_bag:=$bag" depth_topic:=/other
 echo 'no bag' >"$ROS_HOME/text.bag"
 plays_not "$ROS_HOME/text.bag: " "depth_bag:=$ROS_HOME/text.bag"
 refuses '--camera and --depth-bag go with none of --guarded' "$1/demo" --camera --guarded

@@ -99,25 +99,20 @@ TEST_F(DepthRecordingTest, ItsSurfaceHasNoTrianglesAcrossAStep) {
 
 TEST_F(DepthRecordingTest, SaysThatNoTopicHasDepths) {
   writeImage("/color/image_raw", "rgb8");
-  const std::string text = refusalOf();
-  EXPECT_TRUE(has(text, "no depth images in the bag")) << text;
-  EXPECT_TRUE(has(text, "/color/image_raw: ")) << text;
-  EXPECT_TRUE(has(text, "rgb8")) << text;
+  EXPECT_TRUE(has(refusalOf(), "no depth images (16UC1, 32FC1 or compressedDepth) in the bag"));
 }
 
 TEST_F(DepthRecordingTest, ListsSeveralTopicsWithDepths) {
   for (const std::string camera : {"/front", "/rear"}) writeImage(camera + "/image_rect");
   const std::string text = refusalOf();
-  EXPECT_TRUE(has(
-      text, "choose one topic of depth images (depth_topic:=TOPIC); there are: /front/image_rect, /rear/image_rect"))
+  EXPECT_TRUE(has(text, "choose one topic (depth_topic:=TOPIC); there are: /front/image_rect, /rear/image_rect"))
       << text;
 }
 
-TEST_F(DepthRecordingTest, SaysWhatIsWrongWithTheTopicThatWasAskedFor) {
+TEST_F(DepthRecordingTest, ListsTheTopicsWithDepthsIfAnotherWasAskedFor) {
   writeImage("/color/image_raw", "rgb8");
   writeImage("/depth/image_rect");
-  EXPECT_TRUE(has(refusalOf("/color/image_raw"), "/color/image_raw: "));
-  EXPECT_TRUE(has(refusalOf("/none"), "no images on /none; there are: /depth/image_rect"));
+  EXPECT_TRUE(has(refusalOf("/color/image_raw"), " on /color/image_raw; there are: /depth/image_rect"));
 }
 
 TEST_F(DepthRecordingTest, NamesTheTopicOfTheCameraInfoThatIsMissing) {

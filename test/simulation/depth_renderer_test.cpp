@@ -51,18 +51,17 @@ TEST(DepthNoiseTest, NoiseAndStepsGrowWithTheSquareOfTheDepth) {
   for (const float z : {0.5F, 1.0F, 2.0F}) {
     std::vector<float> depths(100000);
     for (size_t i = 0; i < depths.size(); ++i) depths[i] = z * (1.0F + 5e-7F * static_cast<float>(i));
-    const DepthNoise::Options options;
-    const std::vector<std::uint16_t> seen = DepthNoise(options, /*seed=*/1).seen(depths);
+    const std::vector<std::uint16_t> seen = DepthNoise().seen(depths);
     double sum = 0.0;
     for (size_t i = 0; i < seen.size(); ++i) sum += std::pow(0.001 * seen[i] - depths[i], 2);
-    const double rounding = std::hypot(options.step * z * z, 0.001) / std::sqrt(12.0);
-    const double expected = std::hypot(options.deviation * z * z, rounding);
+    const double rounding = std::hypot(DepthNoise::kStep * z * z, 0.001) / std::sqrt(12.0);
+    const double expected = std::hypot(DepthNoise::kDeviation * z * z, rounding);
     EXPECT_NEAR(std::sqrt(sum / static_cast<double>(seen.size())), expected, 0.1 * expected) << z;
   }
 }
 
 TEST(DepthNoiseTest, WhatIsNotSeenHasNoDepth) {
-  DepthNoise noise({}, /*seed=*/1);
+  DepthNoise noise;
   EXPECT_EQ(noise.seen({NAN, 100.0F, 1.0F})[0], 0U);
   EXPECT_EQ(noise.seen({NAN, 100.0F, 1.0F})[1], 0U);
   EXPECT_NEAR(noise.seen({NAN, 100.0F, 1.0F})[2], 1000.0, 10.0);
