@@ -66,7 +66,7 @@ const TopicChoice kJoints = {{"sensor_msgs/JointState"}, "sensor_msgs/JointState
 std::string chooseTopic(const rosbag::Bag& bag, const std::string& requested, const TopicChoice& choice) {
   std::set<std::string> topics;
   for (const rosbag::ConnectionInfo* connection : rosbag::View(bag, rosbag::TypeQuery(choice.types)).getConnections()) {
-    topics.insert(connection->topic);
+    if (!choice.fits || choice.fits(connection->topic)) topics.insert(connection->topic);
   }
   if (topics.empty()) throw InvalidInput("no " + choice.what + " in the bag; record one of them");
   if (!requested.empty() && topics.count(requested) == 0) {

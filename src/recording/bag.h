@@ -13,9 +13,10 @@ namespace sweep_guard_recording {
 
 /// Describes the topics of a bag among which one is chosen.
 struct TopicChoice {
-  std::vector<std::string> types;  ///< of messages, as in geometry_msgs/PoseStamped
-  std::string what;                ///< the types in words
-  std::string how;                 ///< how one is chosen, in words
+  std::vector<std::string> types;                        ///< of messages, as in geometry_msgs/PoseStamped
+  std::string what;                                      ///< the types in words
+  std::string how;                                       ///< how one is chosen, in words
+  std::function<bool(const std::string& topic)> fits{};  ///< of those with these types; empty: each does
 };
 
 /// Returns the topic of a bag that was asked for, or else the only one.

@@ -21,6 +21,8 @@
 
 #include "recording/object_contacts.h"
 #include "recording/run_node.h"
+#include "ros/camera/depth_topic.h"
+#include "ros/parameters/camera_parameters.h"
 #include "session/held_warnings.h"
 #include "session/patient_call.h"
 #include "session/report_files.h"
@@ -136,6 +138,8 @@ class ReplayReport {
     topics.joint_states = parameters.text("joint_states", "/joint_states");
     topics.mesh = parameters.text("mesh", "/mesh");
     topics.mesh_vertices = parameters.text("mesh_vertices", "/mesh_vertices");
+    topics.cameras = readCameras();
+    if (!topics.cameras.empty() && files_.count(topics.mesh) == 0) topics.mesh.clear();
     topics.fixed_frame = guard_.param<std::string>("fixed_frame", topics.fixed_frame);
     const auto source = guard_.param<std::string>("tool_source", "topic");
     if (source != "topic") {
@@ -146,6 +150,16 @@ class ReplayReport {
       listenTo(std::exchange(topics.joint_states, ""));
     }
     return topics;
+  }
+
+  std::vector<SessionCamera> readCameras() const {
+    sweep_guard_ros::ParameterReader parameters(guard_);
+    std::vector<SessionCamera> cameras;
+    for (const sweep_guard_ros::CameraParameters& camera : sweep_guard_ros::readCameras(parameters)) {
+      const std::string depth = absoluteName(camera.depth);
+      cameras.push_back({camera.id, depth, sweep_guard_ros::infoTopicOf(depth)});
+    }
+    return cameras;
   }
 
   bool sweptToTheEnd() const {
@@ -187,7 +201,8 @@ class ReplayReport {
     warning_ = node_.subscribe("warning", kQueue, &ReplayReport::onWarning, this, ros::TransportHints().tcpNoDelay());
     require([this] { return contacts_.getNumPublishers() > 0 && warned_; },
             "no guard on " + contacts_.getTopic() + "; see its log");
-    require([this] { return meshInBag() || knows_mesh_; }, "the guard got no workpiece; see the log of scene_input");
+    require([this] { return meshInBag() || !topics_.cameras.empty() || knows_mesh_; },
+            "the guard got no workpiece; see the log of scene_input");
     const std::string service = ros::names::resolve("pause_playback");
     require([this, &service] { return clock_.getNumPublishers() > 0 && ros::service::exists(service, false); },
             "the bag is not played: no service " + service + ". Each topic of the player needs a subscriber");

@@ -1,6 +1,9 @@
 #include "session/session_bag.h"
 
 #include <geometry_msgs/PoseStamped.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/CompressedImage.h>
+#include <sensor_msgs/Image.h>
 #include <sensor_msgs/JointState.h>
 #include <sweep_guard/DeformableMesh.h>
 #include <sweep_guard/Intend.h>
@@ -13,6 +16,7 @@
 #include <set>
 
 #include "common/frame_name.h"
+#include "ros/camera/depth_topic.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/ros/conversions.h"
@@ -83,6 +87,17 @@ std::string remedyForMesh(const TopicTypes& types) {
   return remedy + ". " + kLatched;
 }
 
+void requireCamera(const TopicTypes& types, const SessionCamera& camera) {
+  const std::string of_camera = " of camera '" + camera.id + "'";
+  const std::string remedy = "change `cameras` in the file of config:=FILE, or record it";
+  if (sweep_guard_ros::isCompressedDepth(camera.depth)) {
+    require<sensor_msgs::CompressedImage>(types, "depth" + of_camera, camera.depth, remedy);
+  } else {
+    require<sensor_msgs::Image>(types, "depth" + of_camera, camera.depth, remedy);
+  }
+  require<sensor_msgs::CameraInfo>(types, "camera_info" + of_camera, camera.info, "record it beside the images");
+}
+
 void requireTopics(const TopicTypes& types, const SessionTopics& topics) {
   if (!topics.tool_pose.empty())
     require<geometry_msgs::PoseStamped>(types, "tool_pose", topics.tool_pose, "give tool_pose:=TOPIC");
@@ -91,6 +106,7 @@ void requireTopics(const TopicTypes& types, const SessionTopics& topics) {
   for (const char* const topic : {kTransforms, kStaticTransformsTopic})
     requireVersion<tf2_msgs::TFMessage>(types, topic);
   requireVersion<sweep_guard::Intend>(types, kIntendTopic);
+  for (const SessionCamera& camera : topics.cameras) requireCamera(types, camera);
   if (topics.mesh.empty()) return;
   require<sweep_guard::DeformableMesh>(types, "mesh", topics.mesh, remedyForMesh(types));
   if (types.count(absoluteName(topics.mesh_vertices)) == 0) return;
@@ -133,6 +149,14 @@ void readMeshFrames(const SessionFiles& files, const std::string& topic, Frames&
   files.forEach({topic}, [&](const rosbag::MessageInstance& message) {
     const auto mesh = message.instantiate<sweep_guard::DeformableMesh>();
     if (mesh && !mesh->mesh.triangles.empty()) addFrame(mesh->header.frame_id, frames);
+  });
+}
+
+void readCamera(const SessionFiles& files, const SessionCamera& camera, SessionBag& session, Frames& frames) {
+  session.cameras.push_back(fmt::format("{}: {} images on {}", sweep_guard_core::printable(camera.id),
+                                        files.count(camera.depth), camera.depth));
+  files.forEach({camera.info}, [&](const rosbag::MessageInstance& message) {
+    if (const auto info = message.instantiate<sensor_msgs::CameraInfo>()) addFrame(info->header.frame_id, frames);
   });
 }
 
@@ -181,6 +205,7 @@ SessionBag inspect(const SessionFiles& files, const SessionTopics& topics, Durat
     session.vertices = files.count(topics.mesh_vertices);
     readMeshFrames(files, topics.mesh, frames);
   }
+  for (const SessionCamera& camera : topics.cameras) readCamera(files, camera, session, frames);
   if (!topics.tool_pose.empty()) readPoses(files, topics.tool_pose, session, frames);
   frames.erase(sweep_guard_core::withoutSlash(topics.fixed_frame));
   erasePlaced(files, frames);

@@ -12,6 +12,13 @@ namespace sweep_guard_session {
 constexpr const char* kStaticTransformsTopic = "/tf_static";
 constexpr const char* kIntendTopic = "/sweep_guard/intend_updates";
 
+/// Topics of a depth camera that is a workpiece.
+struct SessionCamera {
+  std::string id;
+  std::string depth;  ///< sensor_msgs/Image, or CompressedImage if it ends in /compressedDepth
+  std::string info;   ///< sensor_msgs/CameraInfo
+};
+
 /// Topics of the guard's inputs. The bag may name them without a slash at their front.
 struct SessionTopics {
   std::string tool_pose;              ///< geometry_msgs/PoseStamped; empty: the pose comes from elsewhere
@@ -20,6 +27,7 @@ struct SessionTopics {
   std::string joint_states;           ///< sensor_msgs/JointState; empty: the tool has no joints that move
   std::vector<std::string> frames{};  ///< of the tool, which tf has to place
   std::string fixed_frame = "world";  ///< needs no transform
+  std::vector<SessionCamera> cameras{};
 };
 
 /// Summary of a session.
@@ -27,6 +35,7 @@ struct SessionBag {
   std::vector<sweep_guard_core::Time> poses;  ///< stamps of the poses that are played, ascending
   std::size_t meshes = 0;                     ///< number of mesh messages
   std::size_t vertices = 0;                   ///< number of vertex messages
+  std::vector<std::string> cameras{};         ///< id of each and number of its images, in words
   sweep_guard_core::Time begin;               ///< first message
   sweep_guard_core::Time start;               ///< it is played from here on
   sweep_guard_core::Time end;                 ///< last message

@@ -187,6 +187,7 @@ std::string summary(const SessionLog& log, const SessionBag& bag) {
   std::string text =
       fmt::format("session    {:.1f} s{}, {} poses, {} meshes, {} updates of vertices\n",
                   toSeconds(bag.end - bag.begin), startOf(bag), bag.poses.size(), bag.meshes, bag.vertices);
+  for (const std::string& camera : bag.cameras) text += "camera     " + camera + '\n';
   for (const std::string& line : bag.config) text += "config     " + line + '\n';
   for (const std::string& missing : bag.missing) text += "missing    " + missing + '\n';
   text += sweptLine(log, bag);

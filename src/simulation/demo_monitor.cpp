@@ -2,6 +2,7 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
+#include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/JointState.h>
 #include <unistd.h>
 
@@ -52,6 +53,7 @@ struct Arguments {
   std::string latency_csv;
   bool joints = false;
   bool elastic = false;
+  bool camera = false;
   bool help = false;
 };
 
@@ -59,10 +61,13 @@ po::options_description describe(Arguments& arguments) {
   po::options_description options(
       "Usage: demo_monitor [options]\n"
       "Counts the poses of a demo and the answers of the guard, and reports them.\n"
-      "Topics: tool_pose or joint_states, mesh, mesh_vertices, contacts, warning, interaction");
+      "Topics: tool_pose or joint_states, mesh, mesh_vertices, camera/depth/camera_info, contacts, warning,\n"
+      "interaction");
   options.add_options()("help,h", po::bool_switch(&arguments.help), "print this text")(
       "joints", po::bool_switch(&arguments.joints), "joints move the tool: count their states as poses")(
       "elastic", po::bool_switch(&arguments.elastic), "also report how far the workpiece gives way, and the force")(
+      "camera", po::bool_switch(&arguments.camera),
+      "the guard has a depth camera in place of the mesh: count its images")(
       "duration", po::value(&arguments.duration)->value_name("S"),
       "seconds from the first pose, at most 1e6; 0 (default): until the operator ends or Ctrl-C")(
       "latency-csv", po::value(&arguments.latency_csv)->value_name("FILE"),
@@ -106,6 +111,7 @@ class DemoMonitor {
     contacts_ = node_.subscribe("contacts", kQueue, &DemoMonitor::onContacts, this, hints);
     mesh_vertices_ = node_.subscribe("mesh_vertices", kQueue, &DemoMonitor::onMeshVertices, this, hints);
     warning_ = node_.subscribe("warning", kQueue, &DemoMonitor::onWarning, this, hints);
+    if (arguments.camera) countImages();
     if (!arguments.elastic) return;
     mesh_ = node_.subscribe("mesh", 1, &DemoMonitor::onMesh, this);
     interaction_ = node_.subscribe("interaction", kQueue, &DemoMonitor::onInteraction, this, hints);
@@ -143,6 +149,13 @@ class DemoMonitor {
       statistics_.addPose(fromMsg(message->header.stamp), message->header.seq);
     };
     return node_.subscribe<Message>(topic, kQueue, add, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+  }
+  void countImages() {
+    statistics_.addImages(0);
+    const auto count = [this](const sensor_msgs::CameraInfo::ConstPtr& info) {
+      if (!info->header.stamp.isZero()) statistics_.addImages(1);
+    };
+    camera_info_ = node_.subscribe<sensor_msgs::CameraInfo>("camera/depth/camera_info", kQueue, count);
   }
   void onMesh(const sweep_guard::DeformableMesh::ConstPtr& mesh) {
     rest_.clear();
@@ -228,6 +241,7 @@ class DemoMonitor {
   ros::Subscriber mesh_;
   ros::Subscriber mesh_vertices_;
   ros::Subscriber interaction_;
+  ros::Subscriber camera_info_;
   ros::Subscriber contacts_;
   ros::Subscriber warning_;
 };

@@ -117,7 +117,7 @@ std::string DemoStatistics::summary() const {
   }
   return fmt::format(
       "poses in              {}\n"
-      "mesh updates          {}\n"
+      "{}{}\n"
       "sweeps tested         {}\n"
       "contacts              {}\n"
       "{}"
@@ -127,14 +127,16 @@ std::string DemoStatistics::summary() const {
       "warned ahead of       {}\n"
       "missed cycles         {}\n"
       "poses lost            {}",
-      poses_, mesh_updates_, sweeps(), contacts_, byLink(contacts_by_link_), trianglesInContact(), elastic,
-      oneDecimal(latency(0.5)), oneDecimal(latency(0.99)), oneDecimal(latency(1.0)), warned(levels_.contacts()),
-      missedCycles(), posesNotSwept() + posesNeverReceived());
+      poses_, images_ ? "depth images          " : "mesh updates          ", images_.value_or(mesh_updates_), sweeps(),
+      contacts_, byLink(contacts_by_link_), trianglesInContact(), elastic, oneDecimal(latency(0.5)),
+      oneDecimal(latency(0.99)), oneDecimal(latency(1.0)), warned(levels_.contacts()), missedCycles(),
+      posesNotSwept() + posesNeverReceived());
 }
 
 std::optional<std::string> DemoStatistics::fault() const {
   if (poses_ == 0) return "no tool pose arrived: the operator did not move";
-  if (mesh_updates_ == 0) return "no mesh update arrived: the workpiece did not deform";
+  if (images_ && *images_ == 0) return "no depth image arrived: see the log of the camera";
+  if (!images_ && mesh_updates_ == 0) return "no mesh update arrived: the workpiece did not deform";
   if (posesNeverReceived() > 0) return fmt::format("{} poses were lost before the monitor", posesNeverReceived());
   if (posesNotSwept() > 0) return fmt::format("{} poses were not swept by the guard", posesNotSwept());
   if (largest_dent_ && contacts_ > 0 && !(*largest_dent_ > 0.0)) return "the workpiece did not give way to the tool";

@@ -31,6 +31,8 @@ class DemoStatistics {
   /// @param sequence  header.seq, counted by the publisher
   void addPose(sweep_guard_core::Time stamp, std::uint32_t sequence);
   void addMeshUpdate(sweep_guard_core::Time stamp);
+  /// Counts images of a depth camera; 0: they are expected.
+  void addImages(std::size_t count) { images_ = images_.value_or(0) + count; }
   /// Records the effect of a tool on an elastic workpiece, for summary() and fault().
   /// @param dent   largest distance of a vertex from its place at rest [m]
   void addDent(double dent) { largest_dent_ = std::max(dent, largest_dent_.value_or(0.0)); }
@@ -68,6 +70,7 @@ class DemoStatistics {
  private:
   std::size_t poses_ = 0;
   std::size_t mesh_updates_ = 0;
+  std::optional<std::size_t> images_;
   sweep_guard_core::Time first_update_;
   sweep_guard_core::Time last_update_;
   std::optional<double> largest_dent_;   // [m]

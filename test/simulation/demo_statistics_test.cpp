@@ -45,6 +45,16 @@ TEST_F(DemoStatisticsTest, HasNoFaultWhenEveryPoseWasAnswered) {
   EXPECT_FALSE(statistics_.fault());
 }
 
+TEST_F(DemoStatisticsTest, WithACameraImagesCountInPlaceOfMeshUpdates) {
+  statistics_.addImages(0);
+  addPose(10, 1);
+  addSweep(10, 10, 11);
+  EXPECT_TRUE(has(statistics_.fault().value_or(""), "no depth image arrived"));
+  statistics_.addImages(1);
+  EXPECT_FALSE(statistics_.fault());
+  EXPECT_TRUE(has(statistics_.summary(), "depth images          1\n")) << statistics_.summary();
+}
+
 TEST_F(DemoStatisticsTest, MatchesAnAnswerThatArrivesBeforeItsPose) {
   addSweep(10, 10, 11);
   EXPECT_EQ(statistics_.posesNotSwept(), 0U);

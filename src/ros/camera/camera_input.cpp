@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "ros/camera/depth_topic.h"
 #include "ros/camera/pinhole.h"
 #include "ros/input/checked_header.h"
 #include "sweep_guard/common/error.h"
@@ -30,11 +31,6 @@ constexpr double kLeastFound = 0.5;
 constexpr sweep_guard_core::Duration kPatience = std::chrono::seconds(5);
 constexpr size_t kRemembered = 64;  // images: snapshots that none of them needed are given back
 
-bool isCompressed(const std::string& topic) {
-  const std::string suffix = "/compressedDepth";
-  return topic.size() > suffix.size() && topic.compare(topic.size() - suffix.size(), suffix.size(), suffix) == 0;
-}
-
 bool isSame(const sweep_guard_core::Pinhole& a, const sweep_guard_core::Pinhole& b) {
   return std::tie(a.fx, a.fy, a.cx, a.cy) == std::tie(b.fx, b.fy, b.cx, b.cy);
 }
@@ -43,12 +39,6 @@ void requireSight(const std::vector<float>& depths) {
   const auto is_nothing = [](float depth) { return std::isnan(depth); };
   if (std::all_of(depths.begin(), depths.end(), is_nothing))
     throw InvalidInput("it has no depth in any pixel: is the camera covered?");
-}
-
-// As image_transport has it, beside the images.
-std::string infoTopicOf(const std::string& topic) {
-  const std::string images = isCompressed(topic) ? ros::names::parentNamespace(topic) : topic;
-  return ros::names::append(ros::names::parentNamespace(images), "camera_info");
 }
 
 }  // namespace
@@ -62,8 +52,8 @@ CameraInput::CameraInput(const ros::NodeHandle& node, const CameraParameters& ca
       points_(dependencies.private_node, camera.id, dependencies.parameters),
       self_(dependencies.parameters, dependencies.frames, dependencies.poses),
       worker_(kMaxWaiting),
-      images_(isCompressed(topic_) ? subscribe<sensor_msgs::CompressedImage>(node)
-                                   : subscribe<sensor_msgs::Image>(node)),
+      images_(isCompressedDepth(topic_) ? subscribe<sensor_msgs::CompressedImage>(node)
+                                        : subscribe<sensor_msgs::Image>(node)),
       infos_(subscribeBounded<sensor_msgs::CameraInfo>(
           node, {info_topic_, 1, kMaxInfoSize},
           [this](const ros::MessageEvent<const sensor_msgs::CameraInfo>& event) {
