@@ -123,7 +123,11 @@ void DepthSurface::readRow(const std::vector<float>& depths, size_t row) {
     nearer_[to + i] = std::max(depth - tolerance.errorAt(depth) * inverse_[to + i], 0.0F);
   }
   float* const free = free_.row(row);
-  for (size_t i = 0; i < grid_.width(); ++i) free[i] = depths[from + i] > farthest ? farthest : nearer_[to + i];
+  for (size_t i = 0; i < grid_.width(); ++i) {
+    const float depth = depths[from + i];
+    const float nearer = depth - tolerance.errorAt(depth) * inverse_[to + i];
+    free[i] = depth >= nearest ? std::min(nearer, farthest) : kNothing;
+  }
   for (size_t i = 0; i < grid_.width(); ++i)
     remembered_[to + i] = depths[from + i] > farthest ? kNothing : remembered_[to + i];
 }

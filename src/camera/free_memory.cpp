@@ -4,6 +4,11 @@
 #include <limits>
 
 namespace sweep_guard_core {
+namespace {
+
+constexpr size_t kRemembered = 64;  // images: those that none of them needed are given back
+
+}  // namespace
 
 FreeMemory::FreeMemory(const Grid& grid, const Pinhole& camera, size_t stride, double remember)
     : grid_(grid),
@@ -17,6 +22,7 @@ void FreeMemory::begin(const Eigen::Isometry3d& X_FC, bool rests, double since) 
   since_ = since;
   before_ = rests ? newest_ : nullptr;
   newest_ = spaces_.take();
+  spaces_.forgetUnneeded(kRemembered);
   newest_->X_CF = X_FC.inverse();
   newest_->camera = camera_;
   newest_->width = grid_.width();

@@ -21,7 +21,8 @@ namespace {
 
 std::vector<std::unique_ptr<GuardedBody>> guarded(std::vector<Tool> bodies, const GuardOptions& options) {
   std::vector<std::unique_ptr<GuardedBody>> all;
-  for (Tool& body : bodies) all.push_back(std::make_unique<GuardedBody>(std::move(body), options));
+  const size_t points = pointsPerBody(bodies.size());
+  for (Tool& body : bodies) all.push_back(std::make_unique<GuardedBody>(std::move(body), options, points));
   return all;
 }
 
@@ -149,7 +150,7 @@ void Guard::exchange(GuardChange& change) {
     if (change.detector || !change.bodies.empty()) body.sweeps.forgetContacts();
     if (!change.bodies.empty()) {
       std::swap(body.tool, change.bodies[i]);
-      body.points_B = pointsWithin(body.tool);
+      body.boxes = BodyBoxes(body.tool, pointsPerBody(bodies_.size()));
       body.touches.clear();
     }
     body.running = std::make_unique<BodyPrediction>(options_);

@@ -158,10 +158,9 @@ void Guard::Run::finish() {
 
 std::optional<double> Guard::Run::seenShare() {
   if (motion_.path.empty() || !seen_.begin(*workpieces_, motion_.from)) return {};
-  for (size_t i = 0; i < order_.size(); ++i) {
-    const GuardedBody& body = *guard_.bodies_[i];
-    seen_.add(body.tool, body.points_B, motion_.from.bodies[i].X_WB, motion_.pathOf(i));
-  }
+  for (size_t i = 0; i < order_.size(); ++i) seen_.place(guard_.bodies_[i]->boxes, motion_.from.bodies[i].X_WB);
+  for (size_t i = 0; i < order_.size(); ++i)
+    seen_.add(guard_.bodies_[i]->boxes, motion_.from.bodies[i].X_WB, motion_.pathOf(i));
   return seen_.share();
 }
 

@@ -5,20 +5,21 @@
 #include <utility>
 #include <vector>
 
+#include "guard/body_boxes.h"
 #include "guard/body_prediction.h"
 #include "guard/measured_sweeps.h"
-#include "guard/seen_share.h"
 #include "guard/united_bodies.h"
 
 namespace sweep_guard_core {
 
 /// One rigid body of the guarded tool, and what Guard keeps for it.
 struct GuardedBody {
-  GuardedBody(Tool tool_B, const GuardOptions& options)
-      : tool(std::move(tool_B)), points_B(pointsWithin(tool)), running(std::make_unique<BodyPrediction>(options)) {}
+  /// @param points  that stand for it, see BodyBoxes
+  GuardedBody(Tool tool_B, const GuardOptions& options, size_t points)
+      : tool(std::move(tool_B)), boxes(tool, points), running(std::make_unique<BodyPrediction>(options)) {}
 
-  Tool tool;                              ///< in the frame of the body
-  std::vector<Eigen::Vector3d> points_B;  ///< within it [m]
+  Tool tool;  ///< in the frame of the body
+  BodyBoxes boxes;
   MeasuredSweeps sweeps;
   IntendedTouches touches;
   std::unique_ptr<BodyPrediction> running;

@@ -1,50 +1,17 @@
 #include "guard/seen_share.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 namespace sweep_guard_core {
 namespace {
 
-constexpr size_t kPoints = 64;
-// Powers of the solution of x^4 + x^3 = 1: their multiples are spread evenly in three dimensions.
-constexpr std::array<double, 3> kSpread = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
-
-// Of a sequence that is spread evenly over [0, 1).
-double spread(size_t i, size_t dimension) {
-  const double value = static_cast<double>(i) * kSpread.at(dimension);
-  return value - std::floor(value);
-}
-
-// Between the middle of a piece and its surface.
-Eigen::Vector3d pointWithin(const ConvexShape& shape_T, size_t i) {
-  const double z = 1.0 - 2.0 * spread(i, 0);
-  const double angle = 2.0 * M_PI * spread(i, 1);
-  const double across = std::sqrt(1.0 - z * z);
-  const Eigen::Vector3d direction(across * std::cos(angle), across * std::sin(angle), z);
-  const Eigen::Vector3d& mean = shape_T.moments_T().mean;
-  return mean + std::cbrt(spread(i, 2)) * (shape_T.supportPoint(direction) - mean);
-}
-
-bool holds(const Tool& tool, const Eigen::Vector3d& p_T) {
-  const auto& pieces = tool.pieces();
-  return tool.bounds_T().contains(p_T) && std::any_of(pieces.begin(), pieces.end(), [&](const ConvexPiece& piece) {
-           return piece.shape_T.depthOf(p_T).depth >= 0.0;
-         });
-}
+constexpr size_t kLeastPlaces = 64;  // fewer say little: a tool hides places beside itself
 
 }  // namespace
 
-std::vector<Eigen::Vector3d> pointsWithin(const Tool& tool) {
-  std::vector<Eigen::Vector3d> points;
-  for (size_t i = 0; i < kPoints; ++i)
-    points.push_back(pointWithin(tool.pieces()[i * tool.pieces().size() / kPoints].shape_T, i));
-  return points;
-}
-
 bool SeenShare::begin(const Workpieces& workpieces, const PoseWithFrames& pose) {
   cameras_.clear();
+  bodies_.clear();
   share_ = 1.0;
   bool any = false;
   for (const auto& workpiece : workpieces) {
@@ -57,23 +24,28 @@ bool SeenShare::begin(const Workpieces& workpieces, const PoseWithFrames& pose) 
 }
 
 // Between two poses a point goes straight: what it leaves out is less than the error of the prediction.
-void SeenShare::add(const Tool& body, const std::vector<Eigen::Vector3d>& points_B, const Eigen::Isometry3d& X_WB,
-                    const PredictedPath& path) {
-  const Eigen::Isometry3d X_BW = X_WB.inverse();
-  for (size_t step = 0; step < path.size(); ++step) {
+void SeenShare::add(const BodyBoxes& body, const Eigen::Isometry3d& X_WB, const PredictedPath& path) {
+  const std::vector<Eigen::Vector3d>& points_B = body.points_B();
+  size_t places = 0;
+  size_t seen = 0;
+  for (size_t step = path.size(); step-- > 0;) {
     const Eigen::Isometry3d& from = step == 0 ? X_WB : path[step - 1].X_WT;
-    size_t places = 0;
-    size_t seen = 0;
     for (size_t i = 0; i < points_B.size(); ++i) {
-      const double time = spread(i + step, 0);
+      const double time = evenlySpread(i + step, 3);
       const Eigen::Vector3d p_W = (1.0 - time) * (from * points_B[i]) + time * (path[step].X_WT * points_B[i]);
-      if (holds(body, X_BW * p_W)) continue;
+      if (isNear(p_W)) continue;
       ++places;
       seen += isSeen(p_W) ? 1 : 0;
     }
-    if (4 * places >= points_B.size())
-      share_ = std::min(share_, static_cast<double>(seen) / static_cast<double>(places));
+    if (places < kLeastPlaces) continue;
+    share_ = std::min(share_, static_cast<double>(seen) / static_cast<double>(places));
+    places = seen = 0;
   }
+}
+
+bool SeenShare::isNear(const Eigen::Vector3d& p_W) const {
+  return std::any_of(bodies_.begin(), bodies_.end(),
+                     [&](const PlacedBody& body) { return body.boxes->isNear(body.X_BW * p_W); });
 }
 
 bool SeenShare::isSeen(const Eigen::Vector3d& p_W) const {

@@ -65,6 +65,7 @@ void WarningMonitor::restartLocked() {
   swept_until_ = {};
   coverage_.reset();
   inputs_.seen.reset();
+  inputs_.unseen.reset();
   for (WarningInputs::OtherTool& tool : inputs_.other_tools) tool.newest.reset();
 }
 

@@ -66,6 +66,8 @@ void WarningMonitor::predicted(const Prediction& prediction, const Timestamps& p
     coverage_->pose = pose;
     coverage_->covered_until = prediction.coveredUntil();
     inputs_.seen = prediction.seen;
+    if (prediction.seen && *prediction.seen < limits_.min_seen)
+      inputs_.unseen = WarningInputs::Unseen{*prediction.seen, now.steady};
   }
   if (!prediction.failures.empty()) on_fault_();
 }

@@ -1,7 +1,6 @@
 #include "monitor/warning_reasons.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "common/number_text.h"
 #include "monitor/late_frames.h"
@@ -37,10 +36,10 @@ void addCoverageReasons(const WarningInputs& inputs, const Instant& now, const W
   addReason(warning, kNotCovered, {"predicted path tested for ", inSeconds(ahead), " only"});
 }
 
-void addSight(const WarningInputs& inputs, const WarningLimits& limits, Warning& warning) {
-  if (!inputs.seen || *inputs.seen >= limits.min_seen) return;
-  const std::string percent = std::to_string(std::lround(100.0 * *inputs.seen));
-  addReason(warning, kNotSeen, {"of a step of the predicted path, cameras see ", percent, " %"});
+void addSight(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning) {
+  if (!inputs.seen || !inputs.unseen || !limits.hold(now.steady - inputs.unseen->found)) return;
+  const std::string percent = std::to_string(static_cast<int>(100.0 * inputs.unseen->share));
+  addReason(warning, kNotSeen, {"cameras see only ", percent, " % of a part of the predicted path"});
 }
 
 void addObject(Warning& warning, Reason reason, TextPieces message) {
@@ -136,7 +135,7 @@ void addReasons(const WarningInputs& inputs, const Instant& now, const WarningLi
   addPoseReasons(inputs, now, limits, warning);
   addObjectReasons(inputs, now, limits, warning);
   addCoverageReasons(inputs, now, limits, warning);
-  addSight(inputs, limits, warning);
+  addSight(inputs, now, limits, warning);
   addOtherToolReasons(inputs, now, limits, warning);
   addFrameReasons(inputs, now, limits, warning);
   addLoadReasons(inputs, now, limits, warning);

@@ -9,7 +9,7 @@ CameraGuard::CameraGuard(Tool tool, const CameraSetup& setup)
     : setup_(setup),
       tool_(std::move(tool)),
       empty_(Grid(setup.width, setup.height)),
-      points_T_(pointsWithin(tool_)),
+      boxes_(tool_, pointsPerBody(1)),
       guard_(tool_, makeDetector("halfspace"), {}),
       surface_(Grid(setup.width, setup.height), setup.camera, setup.options) {}
 
@@ -31,7 +31,8 @@ void CameraGuard::run(double seconds, const Pose& pose_W, const See& see, const 
 std::optional<double> CameraGuard::seen() {
   const PredictedMotion motion = guard_.predictMotion({}, std::chrono::milliseconds(1100));
   if (motion.path.empty() || !seen_.begin(shown_, motion.from)) return {};
-  seen_.add(tool_, points_T_, motion.from.bodies[0].X_WB, motion.path);
+  seen_.place(boxes_, motion.from.bodies[0].X_WB);
+  seen_.add(boxes_, motion.from.bodies[0].X_WB, motion.path);
   return seen_.share();
 }
 

@@ -57,7 +57,7 @@ class CameraGuard {
   const CameraSetup setup_;
   const Tool tool_;
   const TriangleMesh empty_;
-  const std::vector<Eigen::Vector3d> points_T_;
+  const BodyBoxes boxes_;
   Guard guard_;
   SeenShare seen_;
   DepthSurface surface_;

@@ -62,6 +62,13 @@ TEST_F(FreeSpaceTest, BeyondTheRangeItIsFreeUpToItsEnd) {
   EXPECT_FALSE(isFree(26, 18, 4.001));
 }
 
+TEST_F(FreeSpaceTest, TheMarginIsNotFreeWhereADepthIsJustBeyondTheRangeEither) {
+  DepthSurface surface(grid_, kCamera, {0.1, 4.0, {0.1, 0.0}});
+  surface.take(wall(4.01F), X_FC_);
+  EXPECT_TRUE(surface.freeSpace()->contains(onRay(26, 18, 3.9)));
+  EXPECT_FALSE(surface.freeSpace()->contains(onRay(26, 18, 3.92)));
+}
+
 TEST_F(FreeSpaceTest, BehindTheRobotItStaysFreeForAsLongAsIsRemembered) {
   take(wall(1.0F), 0.0);
   takeBehindRobot(1.0);

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "camera/depth_surface.h"
 #include "camera/rendered_scene.h"
-#include "guard/seen_share.h"
+#include "guard/body_boxes.h"
 
 namespace sweep_guard_core {
 namespace {
@@ -67,7 +68,7 @@ class FreeSpaceTruthTest : public testing::Test {
   }
 
   const Tool tool_ = Tool::cylinder(kThick, kLong);
-  const std::vector<Eigen::Vector3d> points_T_ = pointsWithin(tool_);
+  const std::vector<Eigen::Vector3d> points_T_ = BodyBoxes(tool_, 64).points_B();
   Random random_{0};
   Eigen::Isometry3d X_WC_;
   std::vector<Solid> solids_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <deque>
 #include <fstream>
 #include <sstream>
 
@@ -20,6 +21,7 @@ constexpr double kShank = 0.15;  // length of the bit of a drill [m]
 constexpr double kBit = 0.005;   // its radius
 constexpr double kBody = 0.03;   // radius of the body behind it
 constexpr double kBodyLength = 0.2;
+constexpr double kHold = 0.5;  // of a warning, after its end [s]
 
 // As long, or as many, as the environment variable says.
 double fromEnvironment(const char* name, double fallback) {
@@ -105,40 +107,49 @@ class Hand {
   Eigen::Vector3d center_;
 };
 
-constexpr double kShortFrom = 20.0;  // of a recording, where only a part of it is played [s]
+constexpr double kShortFrom = 30.0;  // of a recording, where only a part of it is played [s]
 
-class RecordedHandTest : public testing::TestWithParam<const char*> {};
-
-// Of the share that is seen in 5 % of the time or less, WarningLimits::min_seen is the least of these hands.
-TEST_P(RecordedHandTest, OverTheShoulderHardlyAnyOfItsPathsIsNotSeen) {
-  const auto path = dataPath(std::string("motion/") + GetParam() + ".txt");
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "there is no " << path;
-  const char* const whole = std::getenv("SWEEP_GUARD_CAMERA_SECONDS");
-  const Hand hand(posesIn(path), whole == nullptr ? kShortFrom : 0.0);
+// Returns the shares of the path that the camera sees, each the least of the time for which a warning is shown.
+std::vector<double> seenOverTheShoulder(const Hand& hand, double seconds) {
   const Eigen::Isometry3d X_WC = lookingAt(Eigen::Vector3d::Zero(), {0.55, 0.3, -0.78}, 0.9);
   RenderedScene scene(
       X_WC, {tableTop(), boxOf({0.08, -0.15, 0.0}, {0.16, -0.05, 0.06}), sphereAt({0.1, 0.12, 0.04}, 0.05)}, {}, 1);
   CameraGuard guard(drill(), setupOf(X_WC));
-  std::vector<double> shares;
+  std::deque<std::pair<double, double>> newest;  // time [s], share
+  std::vector<double> least;
   const auto see = [&](double at) -> const std::vector<float>& { return scene.image(drillAt(hand.at(at))); };
   const auto note = [&](const SweepReport& /*report*/, double at, double /*image*/) {
     const auto seen = at < 2.0 ? std::nullopt : guard.seen();
-    if (seen) shares.push_back(*seen);
+    if (!seen) return;
+    newest.emplace_back(at, *seen);
+    while (at - newest.front().first > kHold) newest.pop_front();
+    const auto is_less = [](const auto& one, const auto& other) { return one.second < other.second; };
+    least.push_back(std::min_element(newest.begin(), newest.end(), is_less)->second);
   };
   guard.run(
-      std::min(hand.seconds(), fromEnvironment("SWEEP_GUARD_CAMERA_SECONDS", 8.0)),
-      [&](double at) { return hand.at(at); }, see, note);
-  ASSERT_GT(shares.size(), 200U);
-  std::sort(shares.begin(), shares.end());
-  const double at_5_percent = shares[shares.size() / 20];
-  RecordProperty("seen_at_5_percent", std::to_string(at_5_percent));
-  EXPECT_GE(at_5_percent, WarningLimits{}.min_seen);
+      seconds, [&](double at) { return hand.at(at); }, see, note);
+  return least;
 }
 
-INSTANTIATE_TEST_SUITE_P(Hands, RecordedHandTest,
-                         testing::Values("handheld_vicon", "handheld_camera_fr2_desk", "handheld_rig_room1",
-                                         "handheld_stylus_15hz", "robot_arm"),
-                         [](const auto& info) { return std::string(info.param); });
+// Of whole recordings: WarningLimits::min_seen is the largest that holds.
+TEST(RecordedHandsTest, OverTheShoulderAreNotSeenForAtMostFivePercentOfTheTime) {
+  const char* const whole = std::getenv("SWEEP_GUARD_CAMERA_SECONDS");
+  double smallest = 1.0;
+  for (const char* name :
+       {"handheld_vicon", "handheld_camera_fr2_desk", "handheld_rig_room1", "handheld_stylus_15hz", "robot_arm"}) {
+    const auto path = dataPath(std::string("motion/") + name + ".txt");
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << "there is no " << path;
+    const Hand hand(posesIn(path), whole == nullptr ? kShortFrom : 0.0);
+    const double seconds = std::min(hand.seconds(), fromEnvironment("SWEEP_GUARD_CAMERA_SECONDS", 8.0));
+    std::vector<double> shares = seenOverTheShoulder(hand, seconds);
+    ASSERT_GT(shares.size(), 200U) << name;
+    std::sort(shares.begin(), shares.end());
+    smallest = std::min(smallest, shares[shares.size() / 20]);
+    RecordProperty(name, std::to_string(shares[shares.size() / 20]));
+    EXPECT_GE(shares[shares.size() / 20], WarningLimits{}.min_seen) << name;
+  }
+  EXPECT_LT(smallest, whole == nullptr ? 1.0 : 1.3 * WarningLimits{}.min_seen);
+}
 
 Instant afterMs(int ms) {
   return {Time(std::chrono::milliseconds(100'000 + ms)), SteadyTime(std::chrono::milliseconds(100'000 + ms))};
@@ -190,15 +201,15 @@ class HiddenThingTest : public testing::Test {
     const double distance = (hidden.to_W - hidden.from_W).norm();
     double way = 0.0;
     double speed = 0.0;
-    bool said = false;
+    std::optional<int> unseen;  // when it was last said
     for (int i = 0; way < distance; ++i) {
       const Eigen::Isometry3d X_WT = heldAt(hidden.from_W + way * ahead);
       guard.run(
           0.01, [&](double /*at*/) { return X_WT; },
           [&](double /*at*/) -> const std::vector<float>& { return scene.image(drillAt(X_WT)); },
           [](const SweepReport& /*report*/, double /*at*/, double /*image*/) {});
-      const bool not_seen = guard.seen().value_or(1.0) < WarningLimits{}.min_seen;
-      said = said || not_seen;
+      if (guard.seen().value_or(1.0) < WarningLimits{}.min_seen) unseen = i;
+      const bool not_seen = unseen && 0.01 * (i - *unseen) <= kHold;
       const Instant now = afterMs(10 * i);
       const double sent = motion_guard
                               .guard(inputsAt(10 * i, X_WT, not_seen),
@@ -214,7 +225,7 @@ class HiddenThingTest : public testing::Test {
       way += 0.01 * speed;
       if (i > 6000) throw std::runtime_error("it does not arrive");
     }
-    return said ? std::optional(speed) : std::nullopt;
+    return unseen ? std::optional(speed) : std::nullopt;
   }
 
   // All that the guard knows is far away.

@@ -501,21 +501,17 @@ TEST(WarningTest, WhatDegradesLeavesTheLevelAndEndsAfterTheHoldTime) {
   EXPECT_EQ(warningNow(inputs).reasons, 0U);
 }
 
-TEST(WarningTest, IsUnknownWhileCamerasSeeLessOfThePathThanTheyMust) {
+TEST(WarningTest, IsUnknownForTheHoldTimeAfterCamerasSawTooLittleOfThePath) {
   WarningInputs inputs = allGood();
-  WarningLimits limits = kShortLimits;
-  limits.min_seen = 0.2;
-  const auto with = [&](std::optional<double> seen) {
-    inputs.seen = seen;
-    const Warning warning = warningOf(inputs, kNow, limits);
-    EXPECT_EQ(warning.seen, seen);
-    return warning;
-  };
-  EXPECT_EQ(with({}).level, WarningLevel::kClear);
-  EXPECT_EQ(with(0.2).level, WarningLevel::kClear);
-  EXPECT_EQ(with(0.194).level, WarningLevel::kUnknown);
-  EXPECT_EQ(with(0.194).reasons, kNotSeen);
-  EXPECT_EQ(with(0.194).text, "UNKNOWN: of a step of the predicted path, cameras see 19 %");
+  inputs.unseen = WarningInputs::Unseen{0.149, kNow.steady - kShortLimits.hold_time};
+  EXPECT_EQ(warningNow(inputs).level, WarningLevel::kClear) << "there is no camera any more";
+  inputs.seen = 0.7;
+  EXPECT_EQ(warningNow(inputs).level, WarningLevel::kUnknown);
+  EXPECT_EQ(warningNow(inputs).reasons, kNotSeen);
+  EXPECT_EQ(warningNow(inputs).seen, 0.7);
+  EXPECT_EQ(warningNow(inputs).text, "UNKNOWN: cameras see only 14 % of a part of the predicted path");
+  inputs.unseen->found -= 1ms;
+  EXPECT_EQ(warningNow(inputs).level, WarningLevel::kClear);
 }
 
 TEST(WarningTest, AJumpIsSaidForTheHoldTimeAndKeepsTheLevel) {

@@ -89,8 +89,8 @@ struct Prediction {
   /// Workpieces not tested because their frame is unknown at the newest pose, or of one that moves on its own, to the end.
   Workpieces unplaced;
   std::vector<SweepFailure> failures;  ///< workpieces whose test failed, for one body at least
-  /// Share of what the tool takes up that cameras have seen to be free, in the step of the path of which they have seen the least, 0
-  /// to 1; empty: there is no camera, or no path.
+  /// Share of what the tool takes up that cameras see to be free, in the part of the path of which they see the least (SeenShare), 0 to
+  /// 1; empty: there is no camera, or no path.
   std::optional<double> seen = {};
 
   /// Returns the stamp up to which every workpiece is tested: the end of the path, or `stamp` if the path is empty or a

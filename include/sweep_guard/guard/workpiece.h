@@ -30,8 +30,8 @@ struct Workpiece {
   /// What a camera saw: the mesh is a grid, and `updates` is the number of the image. Whatever was not where its vertices were
   /// before came or went since the image before.
   bool of_camera = false;
-  std::shared_ptr<const FreeSpace> free_space =
-      nullptr;                 ///< of a camera: what it knows to be free, in M; null: nothing
+  /// What a camera knows to be free, in M; null: nothing.
+  std::shared_ptr<const FreeSpace> free_space = nullptr;
   bool of_other_tool = false;  ///< a link of another tool: Guard::follow() moves its frame, and it does not age
 };
 

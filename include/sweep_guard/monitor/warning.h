@@ -29,7 +29,8 @@ constexpr Duration kWarningValid = std::chrono::milliseconds(200);
 struct WarningLimits {
   Duration pose_timeout;  ///< a pose older than this is stale; > 0
   Duration mesh_timeout;  ///< a workpiece older than this is stale; > 0; Duration::max(): never
-  Duration hold_time;     ///< how long a contact, a warning, an overload, a loss or a jump is shown after its end; >= 0
+  Duration
+      hold_time;  ///< how long a contact, a warning, an overload, a loss, a jump or kNotSeen is shown after its end; >= 0
   Duration reflex = std::chrono::milliseconds(100);       ///< end of the reflex interval, counted from now, > 0
   Duration considered = std::chrono::milliseconds(1000);  ///< end of the considered interval, > reflex
   Duration tick = std::chrono::milliseconds(15);          ///< longest time until the next computeWarning(); >= 0
@@ -39,7 +40,7 @@ struct WarningLimits {
   WarningThresholds thresholds = {};
   Duration acknowledge_time = std::chrono::seconds(10);  ///< longest time that a warning stays acknowledged; >= 0
   Rules<Duration> mesh_timeouts = {};                    ///< of some workpieces, in place of `mesh_timeout`
-  double min_seen = 0.15;  ///< least share of each step of the predicted path that cameras must have seen, in (0, 1]
+  double min_seen = 0.09;  ///< cameras see too little of a path if Prediction::seen is less; in (0, 1]
 
   /// Returns the age above which a workpiece is stale.
   Duration meshTimeout(const std::string& id) const {

@@ -65,6 +65,11 @@ struct WarningInputs {
     std::optional<SteadyTime> acknowledged_until = {};  ///< end of an acknowledgement; may have passed
     std::uint32_t acknowledged_revision = 0;            ///< of the mesh that was acknowledged
   };
+  /// When cameras saw too little of the predicted path, and how much.
+  struct Unseen {
+    double share;
+    SteadyTime found;
+  };
   /// Something that is reported for a while after `found`.
   struct Event {
     std::string message;
@@ -89,6 +94,7 @@ struct WarningInputs {
   WorkpieceWarning removed;                ///< newest alarms of workpieces that are gone
   Time covered_until;                  ///< every workpiece is tested up to here, measured or predicted; epoch: never
   std::optional<double> seen;          ///< of the newest prediction, see Prediction::seen
+  std::optional<Unseen> unseen;        ///< newest one
   std::optional<SteadyTime> overload;  ///< when poses were last swept at once that had waited beyond the limit
   Duration backlog{};                  ///< how long the first of these had waited
   std::optional<Event> pose_loss;      ///< newest poses that were sent and did not arrive

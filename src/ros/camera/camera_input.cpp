@@ -115,6 +115,7 @@ void CameraInput::take(const Msg& msg, SteadyTime received) {
     newest_ = stamp;
     ++number_;
     keepShares({stamp, received});
+    points_.publish(*surface_, depths_, stamp);
     image = unusedImage();
     image->mesh_M.deform(surface_->places_F(), surface_->before_F(), surface_->existing());
     image->stamp = stamp;
@@ -125,7 +126,6 @@ void CameraInput::take(const Msg& msg, SteadyTime received) {
     return refuse(error.what(), received);
   }
   if (!dependencies_.show(image)) drop(received);
-  points_.publish(*surface_, depths_, *newest_);
 }
 
 // Begins anew with a camera of another size or calibration, and after another tool, in whose place the surroundings were seen.

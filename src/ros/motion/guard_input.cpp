@@ -124,7 +124,8 @@ void GuardInput::acceptWarning(const ros::MessageEvent<const sweep_guard::Warnin
   const auto level =
       known ? static_cast<sweep_guard_core::WarningLevel>(msg.level) : sweep_guard_core::WarningLevel::kUnknown;
   const sweep_guard_core::Lock lock(mutex_);
-  newest_.warning = sweep_guard_core::MotionInputs::GuardWarning{level, msg.reasons, std::chrono::steady_clock::now()};
+  newest_.warning =
+      sweep_guard_core::MotionInputs::GuardWarning{level, known ? msg.reasons : 0U, std::chrono::steady_clock::now()};
 }
 
 // When time went back, those before are silent soon.

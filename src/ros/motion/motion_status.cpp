@@ -45,9 +45,9 @@ std::string textOf(const MotionStatus& status, const sweep_guard_core::Permissio
   }
   if (status.code == MotionStatus::NO_WARNING) return "passed on";
   const std::string what = status.code == MotionStatus::HALT_FOR_COLLISION ? "stopped" : "slowed";
-  if (status.mesh_id.empty() && decision.cause == sweep_guard_core::PermissionCause::kUnseen)
-    return what + ": " + status.cause;
-  return what + " before " + nearestText(status);
+  const bool unseen = decision.cause == sweep_guard_core::PermissionCause::kUnseen;
+  if (unseen && status.mesh_id.empty()) return what + ": " + status.cause;
+  return what + " before " + nearestText(status) + (unseen ? "; " + status.cause : "");
 }
 
 // It is not the surfaces that limit the command.

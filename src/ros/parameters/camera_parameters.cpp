@@ -79,11 +79,13 @@ CameraParameters cameraOf(GroupReader& group) {
   camera.depth = group.text("depth");
   const auto [nearest, farthest] = group.pair("range", {0.1, 4.0}, {0.001, 1000.0, "m"});
   if (!(nearest < farthest)) GroupReader::refuse("with range: [nearest, farthest]");
-  camera.options = {nearest, farthest, group.pair("margin", {0.005, 0.003}, {0.0, 1.0}), 0.0, 0.0};
+  camera.options.nearest = nearest;
+  camera.options.farthest = farthest;
+  camera.options.margin = group.pair("margin", camera.options.margin, {0.0, 1.0});
   camera.timeout = sweep_guard_core::fromSeconds(group.number("timeout", 0.2, {0.01, 60.0, "s"}));
-  camera.options.surface_speed = group.number("surface_speed", 1.0, {0.0, 100.0, "m/s"});
+  camera.options.surface_speed = group.number("surface_speed", camera.options.surface_speed, {0.0, 100.0, "m/s"});
   camera.self_padding = group.number("self_padding", 0.03, {0.0, 1.0, "m"});
-  camera.options.remember = group.number("remember", 2.0, {0.0, 60.0, "s"});
+  camera.options.remember = group.number("remember", camera.options.remember, {0.0, 60.0, "s"});
   return camera;
 }
 
@@ -103,8 +105,7 @@ std::vector<CameraParameters> readCameras(ParameterReader& read) {
       "plus the second times z^2: the error of the camera. timeout [s]: an older image makes the warning UNKNOWN. "
       "surface_speed [m/s]: what moves no faster along a ray of the camera is swept on its way. self_padding [m]: "
       "what is as near to the tool is the tool itself. remember [s]: what was free when the robot came before it "
-      "counts as "
-      "free for so long.",
+      "counts as free for so long.",
       [&](XmlRpcValue& group) {
         GroupReader reader(group);
         cameras.push_back(cameraOf(reader));
