@@ -57,11 +57,11 @@ class WarningMerger {
   /// Returns why a guard counts as silent; empty: it does not.
   std::string silence(size_t guard, const Instant& now) const;
 
-  /// Returns the warning of all guards: the reasons of all, kNotCovered for one that
-  /// is silent; the earliest times, `valid_until` of the guards that count and at most kWarningValid from now, and
-  /// `covered_until` 0 if one is silent; `acknowledged` of the leader, `intended` of any, the smallest `seen`; the level, and what each guard says
-  /// that is not CLEAR. The leader is of this level, rather one that lasts than one that is held, rather one that is not
-  /// acknowledged, with the earliest collision, with the oldest pose.
+  /// Returns the warning of all guards: the reasons of all, kNotCovered for one that is silent; the earliest times,
+  /// `valid_until` of the guards that count and at most kWarningValid from now, and `covered_until` 0 if one is silent;
+  /// `acknowledged` of the leader, `intended` of any, the smallest `seen`; the level, and what each guard says that is not
+  /// CLEAR. The leader is of this level, rather one that lasts than one that is held, rather one that is not acknowledged,
+  /// with the earliest collision, with the oldest pose.
   MergedWarning merged(const Instant& now) const;
 
   const std::vector<std::string>& guards() const { return guards_; }
