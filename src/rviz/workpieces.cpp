@@ -6,6 +6,7 @@ namespace sweep_guard_rviz {
 
 void Workpieces::clear() {
   visuals_.clear();
+  cameras_.clear();
   problems_.clear();
   vertices_.clear();
   intended_.reset();
@@ -50,6 +51,7 @@ void Workpieces::draw(const std::vector<sweep_guard::ObjectView>& objects, const
   std::map<std::string, const sweep_guard::ObjectView*> views;
   for (const sweep_guard::ObjectView& object : objects) {
     views[object.mesh_id] = &object;
+    if (object.of_camera != 0) cameras_.insert(object.mesh_id);
     visual(object.mesh_id);
   }
   for (auto each = visuals_.begin(); each != visuals_.end();) {
@@ -115,7 +117,9 @@ std::string Workpieces::legend() const {
 std::string Workpieces::problem(const std::string& topic) const {
   if (!problems_.empty()) return "'" + problems_.begin()->first + "': " + problems_.begin()->second;
   if (visuals_.empty()) return "no mesh from " + topic;
-  const auto missing = std::find_if(visuals_.begin(), visuals_.end(), [](auto& one) { return !one.second->hasMesh(); });
+  const auto missing = std::find_if(visuals_.begin(), visuals_.end(), [this](auto& one) {
+    return !one.second->hasMesh() && cameras_.count(one.first) == 0;
+  });
   return missing == visuals_.end() ? "" : "no mesh '" + missing->first + "' from " + topic;
 }
 

@@ -10,6 +10,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,7 @@ class Workpieces {
   Ogre::SceneManager& scene_;
   Ogre::SceneNode& node_;
   std::map<std::string, std::unique_ptr<WorkpieceVisual>> visuals_;
+  std::set<std::string> cameras_;                                        // workpieces that need no mesh
   std::map<std::string, std::string> problems_;                          // by workpiece
   std::map<std::string, sweep_guard::MeshVertices::ConstPtr> vertices_;  // not drawn yet
   sweep_guard::Intended::ConstPtr intended_;

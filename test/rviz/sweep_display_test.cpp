@@ -185,6 +185,15 @@ TEST_F(SweepDisplayTest, ReportsAMissingMesh) {
   await("the status", [this] { return status("Mesh") == "no mesh from /mesh"; });
 }
 
+TEST_F(SweepDisplayTest, NeedsNoMeshOfACamera) {
+  View view = viewOf(Warning::CLEAR);
+  show(view);
+  await("the status", [this] { return status("Mesh") == "no mesh 'square' from /mesh"; });
+  view.objects[0].of_camera = 1;
+  show(view);
+  await("the status", [this] { return status("Mesh") == "0 triangles"; });
+}
+
 TEST_F(SweepDisplayTest, ReportsAnUnknownFrame) {
   DeformableMesh mesh = square(0.0);
   mesh.header.frame_id = "nowhere";

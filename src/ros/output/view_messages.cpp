@@ -36,6 +36,7 @@ ObjectView& viewOf(const sweep_guard_core::Workpiece& workpiece, std::vector<Obj
   object.mesh_id = workpiece.id;
   object.revision = workpiece.revision;
   object.frame_id = workpiece.frame;
+  object.of_camera = workpiece.of_camera ? 1 : 0;
   return object;
 }
 
