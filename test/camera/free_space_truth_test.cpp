@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "camera/depth_surface.h"
 #include "camera/rendered_scene.h"
 #include "guard/body_boxes.h"
+#include "scenes.h"
 
 namespace sweep_guard_core {
 namespace {
@@ -79,9 +79,7 @@ class FreeSpaceTruthTest : public testing::Test {
 };
 
 TEST_F(FreeSpaceTruthTest, NothingStandsBeforeWhatIsTakenToBeFree) {
-  const char* const volumes = std::getenv("SWEEP_GUARD_CAMERA_VOLUMES");
-  const int scenes = (volumes == nullptr ? 4000 : std::atoi(volumes)) / 1000;
-  for (int scene = 0; scene < scenes; ++scene) {
+  for (int scene = 0; scene < sceneCount(100, 4.0); ++scene) {
     look(static_cast<std::uint64_t>(scene));
     for (int i = 0; i < 1000; ++i) {
       const Eigen::Vector3d place(random_.uniform(-0.4, 0.4), random_.uniform(-0.4, 0.4), random_.uniform(-0.1, 0.4));

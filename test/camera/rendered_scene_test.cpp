@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 
 #include "camera/camera_guard.h"
 
@@ -49,11 +48,8 @@ Eigen::Isometry3d wandering(double seconds) {
   return toolAt(tip, 0.13 * seconds);
 }
 
-// As long as the environment variable says.
-double wanderingTime() {
-  const char* const seconds = std::getenv("SWEEP_GUARD_CAMERA_SECONDS");
-  return seconds == nullptr ? 4.0 : std::atof(seconds);
-}
+// Ten minutes at full size [s].
+double wanderingTime() { return sceneCount(600, 0.7); }
 
 class RenderedSceneTest : public testing::Test {
  protected:

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <deque>
 #include <fstream>
 #include <sstream>
@@ -11,6 +10,7 @@
 #include "camera/camera_guard.h"
 #include "camera/rendered_scene.h"
 #include "data_path.h"
+#include "scenes.h"
 #include "sweep_guard/monitor/warning.h"
 #include "sweep_guard/motion/motion_guard.h"
 
@@ -22,12 +22,6 @@ constexpr double kBit = 0.005;   // its radius
 constexpr double kBody = 0.03;   // radius of the body behind it
 constexpr double kBodyLength = 0.2;
 constexpr double kHold = 0.5;  // of a warning, after its end [s]
-
-// As long, or as many, as the environment variable says.
-double fromEnvironment(const char* name, double fallback) {
-  const char* const value = std::getenv(name);
-  return value == nullptr ? fallback : std::atof(value);
-}
 
 Tool drill() {
   return Tool({{"bit", ConvexShape::cylinder(kBit, kShank)},
@@ -133,14 +127,14 @@ std::vector<double> seenOverTheShoulder(const Hand& hand, double seconds) {
 
 // Of whole recordings: WarningLimits::min_seen is the largest that holds.
 TEST(RecordedHandsTest, OverTheShoulderAreNotSeenForAtMostFivePercentOfTheTime) {
-  const char* const whole = std::getenv("SWEEP_GUARD_CAMERA_SECONDS");
+  const bool whole = sceneCount(100, 0.0) >= 100;
   double smallest = 1.0;
   for (const char* name :
        {"handheld_vicon", "handheld_camera_fr2_desk", "handheld_rig_room1", "handheld_stylus_15hz", "robot_arm"}) {
     const auto path = dataPath(std::string("motion/") + name + ".txt");
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "there is no " << path;
-    const Hand hand(posesIn(path), whole == nullptr ? kShortFrom : 0.0);
-    const double seconds = std::min(hand.seconds(), fromEnvironment("SWEEP_GUARD_CAMERA_SECONDS", 8.0));
+    const Hand hand(posesIn(path), whole ? 0.0 : kShortFrom);
+    const double seconds = whole ? hand.seconds() : 8.0;
     std::vector<double> shares = seenOverTheShoulder(hand, seconds);
     ASSERT_GT(shares.size(), 200U) << name;
     std::sort(shares.begin(), shares.end());
@@ -148,7 +142,7 @@ TEST(RecordedHandsTest, OverTheShoulderAreNotSeenForAtMostFivePercentOfTheTime) 
     RecordProperty(name, std::to_string(shares[shares.size() / 20]));
     EXPECT_GE(shares[shares.size() / 20], WarningLimits{}.min_seen) << name;
   }
-  EXPECT_LT(smallest, whole == nullptr ? 1.0 : 1.3 * WarningLimits{}.min_seen);
+  EXPECT_LT(smallest, whole ? 1.3 * WarningLimits{}.min_seen : 1.0);
 }
 
 Instant afterMs(int ms) {
@@ -241,8 +235,7 @@ class HiddenThingTest : public testing::Test {
 };
 
 TEST_F(HiddenThingTest, IsReachedSlowlyAndAfterItWasSaidThatNothingIsSeenThere) {
-  const auto sessions = static_cast<std::uint64_t>(fromEnvironment("SWEEP_GUARD_CAMERA_SESSIONS", 2.0));
-  for (std::uint64_t seed = 0; seed < sessions; ++seed) {
+  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(sceneCount(100, 2.0)); ++seed) {
     Random random(seed);
     const auto speed = arrive(seed % 2 == 0 ? behindABoard(random) : beyondThePicture(random));
     ASSERT_TRUE(speed) << seed;
