@@ -379,6 +379,9 @@ TEST_F(ReconfigureTest, TheHoldTimeOfAContactChanges) {
 }
 
 // A thousand times less time for more than two thousand sweeps. On a busy machine there is enough time now and then.
+// camera_test.cpp shows what it does.
+TEST_F(ReconfigureTest, WhatCamerasMustSeeChanges) { change("min_seen", 0.5); }
+
 TEST_F(ReconfigureTest, TheRateDecidesHowManySweepsThereIsTimeFor) {
   Config fine;
   add(fine, "horizon/considered", 5.0);
