@@ -60,11 +60,11 @@ class IntendTest : public NodeTest {
   }
 
   ros::NodeHandle node_;
-  ros::Subscriber subscriber_;
-  ros::Publisher updates_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<Intended> newest_;
+  ros::Subscriber subscriber_;  // its callback uses those before
+  ros::Publisher updates_;
 };
 
 TEST_F(IntendTest, ContactThatIsMeantIsNoContactAndTheMessagesSaySo) {
