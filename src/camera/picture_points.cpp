@@ -5,7 +5,7 @@
 namespace sweep_guard_core {
 
 std::vector<PicturePoint> DepthSurface::points(const std::vector<float>& depths, size_t max_pixels) const {
-  const double pixels = static_cast<double>(depths.size());
+  const auto pixels = static_cast<double>(depths.size());
   const auto step = static_cast<std::uint32_t>(std::ceil(std::sqrt(pixels / static_cast<double>(max_pixels))));
   std::vector<PicturePoint> points;
   points.reserve(depths.size() / (size_t{step} * step));

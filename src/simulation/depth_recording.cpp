@@ -98,7 +98,9 @@ VisibleSurface surfaceOf(const DepthRecording& recording) {
   };
   for (std::uint32_t i = 0; i < columns * rows; ++i) {
     const double z = std::isnan(depth(i)) ? 0.0 : depth(i);
-    for (const double coordinate : {(i % columns * kStride - cx) / fx * z, (i / columns * kStride - cy) / fy * z, z})
+    const double u = i % columns * kStride;
+    const std::uint32_t v = i / columns * kStride;
+    for (const double coordinate : {(u - cx) / fx * z, (v - cy) / fy * z, z})
       surface.positions_S.push_back(static_cast<float>(coordinate));
   }
   const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {

@@ -197,7 +197,7 @@ class HiddenThingTest : public testing::Test {
     double speed = 0.0;
     std::optional<int> unseen;  // when it was last said
     for (int i = 0; way < distance; ++i) {
-      const Eigen::Isometry3d X_WT = heldAt(hidden.from_W + way * ahead);
+      Eigen::Isometry3d X_WT = heldAt(hidden.from_W + way * ahead);
       guard.run(
           0.01, [&](double /*at*/) { return X_WT; },
           [&](double /*at*/) -> const std::vector<float>& { return scene.image(drillAt(X_WT)); },

@@ -19,7 +19,7 @@ constexpr size_t kMaxPixels = 80000;
 
 // In the order of the fields.
 struct ColoredPoint {
-  Eigen::Vector3f p;
+  std::array<float, 3> p;
   std::uint32_t rgb;
 };
 
@@ -39,7 +39,8 @@ sensor_msgs::PointCloud2 cloudOf(const std::vector<sweep_guard_core::PicturePoin
   modifier.setPointCloud2Fields(4, "x", 1, type, "y", 1, type, "z", 1, type, "rgb", 1, type);
   modifier.resize(points.size());
   for (size_t i = 0; i < points.size(); ++i) {
-    const ColoredPoint point{points[i].p_F, colors[static_cast<size_t>(points[i].kind)]};
+    const Eigen::Vector3f& p = points[i].p_F;
+    const ColoredPoint point{{p.x(), p.y(), p.z()}, colors.at(static_cast<size_t>(points[i].kind))};
     std::memcpy(&cloud.data[i * sizeof(point)], &point, sizeof(point));
   }
   return cloud;
