@@ -21,8 +21,6 @@
 
 #include "recording/object_contacts.h"
 #include "recording/run_node.h"
-#include "ros/camera/depth_topic.h"
-#include "ros/parameters/camera_parameters.h"
 #include "session/held_warnings.h"
 #include "session/patient_call.h"
 #include "session/report_files.h"
@@ -138,7 +136,7 @@ class ReplayReport {
     topics.joint_states = parameters.text("joint_states", "/joint_states");
     topics.mesh = parameters.text("mesh", "/mesh");
     topics.mesh_vertices = parameters.text("mesh_vertices", "/mesh_vertices");
-    topics.cameras = readCameras();
+    topics.cameras = camerasOf(guard_);
     if (!topics.cameras.empty() && files_.count(topics.mesh) == 0) topics.mesh.clear();
     topics.fixed_frame = guard_.param<std::string>("fixed_frame", topics.fixed_frame);
     const auto source = guard_.param<std::string>("tool_source", "topic");
@@ -150,16 +148,6 @@ class ReplayReport {
       listenTo(std::exchange(topics.joint_states, ""));
     }
     return topics;
-  }
-
-  std::vector<SessionCamera> readCameras() const {
-    sweep_guard_ros::ParameterReader parameters(guard_);
-    std::vector<SessionCamera> cameras;
-    for (const sweep_guard_ros::CameraParameters& camera : sweep_guard_ros::readCameras(parameters)) {
-      const std::string depth = absoluteName(camera.depth);
-      cameras.push_back({camera.id, depth, sweep_guard_ros::infoTopicOf(depth)});
-    }
-    return cameras;
   }
 
   bool sweptToTheEnd() const {

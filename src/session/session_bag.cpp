@@ -17,6 +17,7 @@
 
 #include "common/frame_name.h"
 #include "ros/camera/depth_topic.h"
+#include "ros/parameters/camera_parameters.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/ros/conversions.h"
@@ -214,6 +215,16 @@ SessionBag inspect(const SessionFiles& files, const SessionTopics& topics, Durat
 }
 
 }  // namespace
+
+std::vector<SessionCamera> camerasOf(const ros::NodeHandle& guard) {
+  sweep_guard_ros::ParameterReader parameters(guard);
+  std::vector<SessionCamera> cameras;
+  for (const sweep_guard_ros::CameraParameters& camera : sweep_guard_ros::readCameras(parameters)) {
+    const std::string depth = absoluteName(camera.depth);
+    cameras.push_back({camera.id, depth, sweep_guard_ros::infoTopicOf(depth)});
+  }
+  return cameras;
+}
 
 SessionBag inspectSession(const SessionFiles& files, const SessionTopics& topics, Duration start) {
   try {

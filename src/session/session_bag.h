@@ -1,5 +1,7 @@
 #pragma once
 
+#include <ros/node_handle.h>
+
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -42,6 +44,10 @@ struct SessionBag {
   std::vector<std::string> missing{};         ///< what the guard will lack, and what to do, in words
   std::vector<std::string> config{};          ///< describeConfig()
 };
+
+/// Returns the cameras that a guard has in its parameters.
+/// @throws sweep_guard_core::InvalidInput as sweep_guard_ros::readCameras()
+std::vector<SessionCamera> camerasOf(const ros::NodeHandle& guard);
 
 /// Checks a recorded session before it is played.
 /// @param start  after the first message; it is played from there on; >= 0

@@ -115,4 +115,10 @@ std::vector<CameraParameters> readCameras(ParameterReader& read) {
   return cameras;
 }
 
+double readMinSeen(ParameterReader& read, double fallback) {
+  return read.live().number("min_seen", fallback, {0.001, 1.0},
+                            "With cameras: the warning is UNKNOWN where they see less than this share of what the tool "
+                            "takes up on its predicted path to be free.");
+}
+
 }  // namespace sweep_guard_ros

@@ -22,4 +22,7 @@ struct CameraParameters {
 /// @throws sweep_guard_core::InvalidInput naming entry, value and range
 std::vector<CameraParameters> readCameras(ParameterReader& read);
 
+/// Reads `min_seen`, see WarningLimits.
+double readMinSeen(ParameterReader& read, double fallback);
+
 }  // namespace sweep_guard_ros

@@ -218,10 +218,7 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
   parameters.limits.acknowledge_time =
       toDuration(read.live().number("warning/acknowledge_time", 10.0, {0.1, 60.0, "s"},
                                     "A warning is acknowledged (~acknowledge) for no longer than this."));
-  parameters.limits.min_seen = read.live().number(
-      "min_seen", parameters.limits.min_seen, {0.001, 1.0},
-      "With cameras: the warning is UNKNOWN where they see less than this share of what the tool takes "
-      "up on its predicted path to be free.");
+  parameters.limits.min_seen = readMinSeen(read, parameters.limits.min_seen);
   parameters.acknowledge_distance =
       read.live().number("warning/acknowledge_distance", 0.03, {0.0, 1.0, "m"},
                          "A warning stays acknowledged while the tool, grown by this much, meets the workpiece.");
