@@ -1,5 +1,5 @@
-// Measures the processor time that ProximityFinder takes per pose: a drill near the surface of a closed mesh and inside of it, a new
-// deformation with every tenth pose.
+// Measures the processor time that ProximityFinder takes per pose: a drill near the surface of a closed mesh and inside of it, and an
+// arm of 7 links that swings beside it, a new deformation with every tenth pose.
 //   proximity [--csv FILE]
 #include <cstdio>
 #include <ctime>
@@ -11,6 +11,7 @@
 #include "scenes.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/motion/proximity_finder.h"
+#include "swinging_arm.h"
 
 namespace sweep_guard_benchmark {
 namespace {
@@ -77,12 +78,48 @@ Row measure(int rings, const Place& place) {
     pose.stamp += i * 1ms;
     const Workpieces workpieces = {updates[static_cast<size_t>(i / kPosesPerUpdate) % updates.size()]};
     const double begin = processorMicroseconds();
-    finder.find({tool, pose, workpieces, kReach}, found);
+    finder.find({{&tool}, pose, workpieces, kReach}, found);
     times.push_back(processorMicroseconds() - begin);
     planes += found.planes.size();
   }
   std::printf("  %.1f planes\n", static_cast<double>(planes) / kPoses);
   return makeRow("proximity", place.name, updates[0]->mesh_M.triangles().size(), 1, times);
+}
+
+PoseWithFrames poseOf(const Robot& robot, double t, const Eigen::Isometry3d& X_WM) {
+  std::vector<Eigen::Isometry3d> X_WB;
+  bodyPoses(robot.tree, robot.bodies, stateAt(t), X_WB);
+  PoseWithFrames pose{Time(100s) + fromSeconds(t), {}, Eigen::Isometry3d::Identity(), {{kFrame, X_WM}}};
+  pose.bodies.clear();
+  for (const Eigen::Isometry3d& X : X_WB) pose.bodies.push_back({X});
+  return pose;
+}
+
+Row measureArm(int rings, const std::string& name, const Eigen::Isometry3d& X_WM) {
+  const Robot robot = arm();
+  const Workpieces updates = deformations(rings);
+  BodyTools bodies;
+  for (const Tool& tool : robot.tools) bodies.push_back(&tool);
+  ProximityFinder finder;
+  Proximity found;
+  std::vector<double> times;
+  size_t planes = 0;
+  for (int i = 0; i < kPoses; ++i) {
+    const PoseWithFrames pose = poseOf(robot, 0.005 * i, X_WM);
+    const Workpieces workpieces = {updates[static_cast<size_t>(i / kPosesPerUpdate) % updates.size()]};
+    const double begin = processorMicroseconds();
+    finder.find({bodies, pose, workpieces, kReach}, found);
+    times.push_back(processorMicroseconds() - begin);
+    planes += found.planes.size();
+  }
+  std::printf("  %.1f planes\n", static_cast<double>(planes) / kPoses);
+  return makeRow("proximity", name, updates[0]->mesh_M.triangles().size(), kLinks, times);
+}
+
+void report(const Row& row, ResultFile& results) {
+  std::printf("%zu triangles, %s: %.1f us (%.1f to %.1f)\n", row.triangles, row.method.c_str(), row.median_us,
+              row.p10_us, row.p90_us);
+  results.write(row);
 }
 
 int run(const std::vector<std::string>& arguments) {
@@ -93,11 +130,10 @@ int run(const std::vector<std::string>& arguments) {
   for (const int rings : {20, 71, 158}) {
     for (const Place& place :
          {Place{"near the surface", 0.012, 0.03}, Place{"in contact", -0.005, 0.0}, Place{"inside", -0.08, -0.03}}) {
-      const Row row = measure(rings, place);
-      std::printf("%zu triangles, %s: %.1f us (%.1f to %.1f)\n", row.triangles, row.method.c_str(), row.median_us,
-                  row.p10_us, row.p90_us);
-      results.write(row);
+      report(measure(rings, place), results);
     }
+    report(measureArm(rings, "arm beside", placedAt(0.17, 0.0, 0.3)), results);
+    report(measureArm(rings, "arm in reach", placedAt(0.25, 0.0, 0.8)), results);
   }
   return 0;
 }

@@ -45,7 +45,7 @@ std::optional<size_t> LoopScene::firstContact(const std::vector<Eigen::Isometry3
 
 const sweep_guard_core::Proximity& LoopScene::proximityAt(const Eigen::Isometry3d& X_WT, const Eigen::Isometry3d& X_WM,
                                                           sweep_guard_core::Time stamp, double reach) {
-  finder_.find({tool_, {stamp, instantOf(stamp).steady, X_WT, {{kFrame, X_WM}}}, workpieces_, reach}, proximity_);
+  finder_.find({{&tool_}, {stamp, instantOf(stamp).steady, X_WT, {{kFrame, X_WM}}}, workpieces_, reach}, proximity_);
   return proximity_;
 }
 

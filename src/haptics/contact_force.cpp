@@ -25,25 +25,25 @@ ContactForceFinder::ContactForceFinder() {
   half_spaces_.reserve(kPlanes);
 }
 
-ToolForce ContactForceFinder::find(const PlaneSet& planes, const ToolBalls& tool, const Eigen::Isometry3d& X_WT,
+ToolForce ContactForceFinder::find(const PlaneSet& planes, const ToolBalls& tool, const PiecePoses& poses,
                                    const Twist& twist_W, const ContactLaw& law) {
-  collectNearestBalls(planes, tool, X_WT);
+  collectNearestBalls(planes, tool, poses);
   ToolForce force = contact(twist_W, law);
   if (law.cue_damping > 0.0) addCue(twist_W, law, force);
   return force;
 }
 
-void ContactForceFinder::collectNearestBalls(const PlaneSet& planes, const ToolBalls& tool,
-                                             const Eigen::Isometry3d& X_WT) {
+void ContactForceFinder::collectNearestBalls(const PlaneSet& planes, const ToolBalls& tool, const PiecePoses& poses) {
   nearest_.clear();
   for (const SeparatingPlane& plane : planes.planes) {
-    const std::vector<ToolBall>& balls_T = tool.pieces[plane.piece];
+    const std::vector<ToolBall>& balls_P = tool.pieces[plane.piece];
     facing_.clear();
-    addFacingBalls(plane, balls_T, X_WT, facing_);
+    const Eigen::Isometry3d& X_WP = poses.of(plane.piece);
+    addFacingBalls(plane, balls_P, X_WP, facing_);
     const auto nearer = [](const FacingBall& a, const FacingBall& b) { return a.gap < b.gap; };
     const auto nearest = std::min_element(facing_.begin(), facing_.end(), nearer);
-    const double radius = balls_T[static_cast<size_t>(nearest - facing_.begin())].radius;
-    nearest->center_W -= radius * plane.normal_W;
+    const double radius = balls_P[static_cast<size_t>(nearest - facing_.begin())].radius;
+    nearest->center_W += X_WP.translation() - poses.X_WT.translation() - radius * plane.normal_W;
     nearest_.push_back(*nearest);
   }
 }

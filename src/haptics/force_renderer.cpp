@@ -44,26 +44,30 @@ void requireUsable(const ForceOptions& options) {
 
 }  // namespace
 
-ForcePermission decideForce(const MotionInputs& inputs, const std::optional<Timestamps>& device, const Instant& now,
-                            const ForceOptions& options) {
-  if (!inputs.warning) return {0.0, PermissionCause::kNoWarning};
-  if (now.steady - inputs.warning->received > options.warning_silence) return {0.0, PermissionCause::kWarningSilent};
-  if (!inputs.warning->knows()) return {0.0, PermissionCause::kUnknown};
-  if (!inputs.pose) return {0.0, PermissionCause::kNoPose};
-  if (now.stamp - inputs.pose->timestamps.stamp > options.pose_age) return {0.0, PermissionCause::kOldPose};
-  if (!inputs.planes) return {0.0, PermissionCause::kNoPlanes};
-  if (now.stamp > inputs.planes->valid_until) return {0.0, PermissionCause::kPlanesExpired};
-  if (!inputs.planes->complete) return {0.0, PermissionCause::kIncomplete};
-  if (!inputs.toolIsKnown()) return {0.0, PermissionCause::kNoTool};
+ForcePermission decideForce(const ForceInputs& inputs, const Instant& now, const ForceOptions& options) {
+  const MotionInputs& known = inputs.known;
+  if (!known.warning) return {0.0, PermissionCause::kNoWarning};
+  if (now.steady - known.warning->received > options.warning_silence) return {0.0, PermissionCause::kWarningSilent};
+  if (!known.warning->knows()) return {0.0, PermissionCause::kUnknown};
+  if (!known.pose) return {0.0, PermissionCause::kNoPose};
+  if (now.stamp - known.pose->timestamps.stamp > options.pose_age) return {0.0, PermissionCause::kOldPose};
+  if (!known.planes) return {0.0, PermissionCause::kNoPlanes};
+  if (now.stamp > known.planes->valid_until) return {0.0, PermissionCause::kPlanesExpired};
+  if (!known.planes->complete) return {0.0, PermissionCause::kIncomplete};
+  if (!known.toolIsKnown()) return {0.0, PermissionCause::kNoTool};
+  if (known.jointsMoveTool() && !inputs.placed) return {0.0, PermissionCause::kMovingJoints};
+  const bool placed_long_ago = inputs.placed && now.stamp - inputs.placed->timestamps.stamp > options.pose_age;
+  if (placed_long_ago) return {0.0, PermissionCause::kOldJoints};
 
   ForcePermission permission{1.0, PermissionCause::kGuarded};
   const auto fadeWith = [&](const Timestamps& input, PermissionCause cause) {
     const double gain = fade(now.steady - input.received, options);
     if (gain < permission.gain) permission = {gain, cause};
   };
-  fadeWith(inputs.pose->timestamps, PermissionCause::kPoseSilent);
-  fadeWith(inputs.planes->timestamps, PermissionCause::kPlanesSilent);
-  if (device) fadeWith(*device, PermissionCause::kDeviceSilent);
+  fadeWith(known.pose->timestamps, PermissionCause::kPoseSilent);
+  fadeWith(known.planes->timestamps, PermissionCause::kPlanesSilent);
+  if (inputs.placed) fadeWith(inputs.placed->timestamps, PermissionCause::kJointsSilent);
+  if (inputs.device) fadeWith(*inputs.device, PermissionCause::kDeviceSilent);
   return permission;
 }
 
@@ -81,7 +85,7 @@ RenderedForce ForceRenderer::render(const ForceInputs& inputs, const DeviceWrenc
   const double period = toSeconds(rendered_ ? std::min(now.steady - *rendered_, 2 * options_.period) : options_.period);
   rendered_ = now.steady;
   RenderedForce rendered;
-  rendered.permission = decideForce(inputs.known, inputs.device, now, options_);
+  rendered.permission = decideForce(inputs, now, options_);
   const DeviceWrench before = faded_ ? unfaded_ : sent;
   if (inputs.known.pose) {
     measureVelocity(*inputs.known.pose);
@@ -92,7 +96,8 @@ RenderedForce ForceRenderer::render(const ForceInputs& inputs, const DeviceWrenc
     return rendered;
   }
   const MotionInputs& known = inputs.known;
-  const ToolForce force = finder_.find(*known.planes, *known.tool, known.pose->X_WT, twist_W_, options_.law);
+  const PiecePoses poses{known.pose->X_WT, inputs.placed ? inputs.placed->tool : nullptr};
+  const ToolForce force = finder_.find(*known.planes, *known.tool, poses, twist_W_, options_.law);
   DeviceWrench wanted = atDevice(force, inputs.R_WD);
   rendered.depth = force.depth;
   rendered.delay = fromSeconds(delay_) + options_.output_delay;

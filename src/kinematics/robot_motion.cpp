@@ -4,31 +4,14 @@
 #include <cassert>
 #include <cmath>
 
+#include "kinematics/travel.h"
 #include "sweep_guard/geometry/motion.h"
 
 namespace sweep_guard_core {
 namespace {
 
-// What is known of the points of a body while the joints move, beginning at the joint next to it.
-struct Travel {
-  double path = 0.0;       // bound on the length of a point's path, seen from the link that the joints so far hang on
-  double curvature = 0.0;  // bound on |p''| there
-  double turn = 0.0;       // bound on the turn of the body
-};
-
-double distanceFromAxis(const Eigen::Vector3d& p, const Eigen::Isometry3d& X_RJ, const Eigen::Vector3d& axis_J) {
-  return (X_RJ.linear() * axis_J).cross(p - X_RJ.translation()).norm();
-}
-
 // A distance that is known at both ends, and changes by at most `path` in between.
 double largestBetween(double start, double end, double path) { return 0.5 * (start + end + path); }
-
-// Of a turn by `angle` of all that has moved so far, by which points at most `distance` from the axis go round.
-void addTurn(Travel& travel, double angle, double distance) {
-  travel.curvature += angle * angle * distance + 2.0 * angle * travel.path;
-  travel.path += angle * distance;
-  travel.turn += angle;
-}
 
 }  // namespace
 
@@ -49,16 +32,16 @@ double RobotMotion::deviationInOnePart(const RobotBody& body) const {
     if (!link.moves()) continue;
     const double moved = std::abs(link.at(to_.positions) - link.at(from_.positions));
     if (link.type == JointType::kPrismatic) {
-      travel.path += moved;
+      travel.addSlide(moved);
       continue;
     }
     // The joint turns about an axis that it does not move: the pose of its link serves for that of the joint.
     const double at_start = distanceFromAxis(start, X_RL_start_[i], link.axis_J);
     const double at_end = distanceFromAxis(end, X_RL_end_[i], link.axis_J);
-    addTurn(travel, moved, largestBetween(at_start, at_end, travel.path) + body.radius);
+    travel.addTurn(moved, largestBetween(at_start, at_end, travel.path) + body.radius);
   }
   const double root_turn = Motion{from_.X_WR, to_.X_WR}.angle();
-  addTurn(travel, root_turn, largestBetween(start.norm(), end.norm(), travel.path) + body.radius);
+  travel.addTurn(root_turn, largestBetween(start.norm(), end.norm(), travel.path) + body.radius);
   return travel.curvature / 8.0 + chordError(body.radius, travel.turn);
 }
 

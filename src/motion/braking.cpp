@@ -22,12 +22,20 @@ double stoppingSpeed(double distance, const BrakingLimits& limits) {
   return 2.0 / (per_distance + std::sqrt(per_distance * per_distance + 2.0 / (limits.deceleration * distance)));
 }
 
-double closingLimit(const FacingBall& ball, double turn_rate, const BrakingLimits& limits) {
+double closingLimit(const FacingBall& ball, double acceleration, const BrakingLimits& limits) {
   const double t = limits.reaction_time;
-  const double acceleration = limits.tool_radius * turn_rate * turn_rate;  // to the axis
   const double distance = ball.gap - limits.standoff - 0.5 * acceleration * t * t;
   const double closing = stoppingSpeed(distance / (1.0 + acceleration / limits.deceleration), limits);
   return std::max(0.0, closing - std::max(0.0, ball.surface_speed));
+}
+
+double arcAcceleration(const Twist& twist_W, double tool_radius) {
+  const double turn_rate = twist_W.w_W.norm();
+  return tool_radius * turn_rate * turn_rate;
+}
+
+bool opens(const FacingBall& ball, double closing, double acceleration, const BrakingLimits& limits) {
+  return closing + std::max(0.0, ball.surface_speed) + 0.5 * acceleration * limits.reaction_time < 0.0;
 }
 
 double closingSpeed(const FacingBall& ball, const Twist& twist_W) {

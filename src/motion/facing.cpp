@@ -1,6 +1,7 @@
 #include "motion/facing.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <utility>
 
@@ -36,6 +37,14 @@ void updateMotion(const PoseWithFrames& pose, const std::shared_ptr<const Workpi
 
 }  // namespace
 
+// Triangles that are meant to be touched are not where the boxes of the mesh say.
+double FacingBody::distance() const {
+  if (contact.intendsAny()) return 0.0;
+  PieceCover whole;
+  whole.begin(tool->whole(), surface->workpiece->mesh_M, X_MT);
+  return whole.distance(CenteredBox(surface->boxes.of(surface->workpiece->mesh_M.order())));
+}
+
 PieceCover::Corners Facing::corners(std::uint32_t triangle) const {
   PieceCover::Corners corners = cover.corners(mesh().triangles()[triangle]);
   const double depth = intendedDepth(triangle);
@@ -66,7 +75,8 @@ Eigen::Vector3d Facing::contactNormal_T(std::uint32_t triangle, const PieceCover
   if (const auto* contacts = surface->contacts) {
     const auto before = [](const TriangleContact& contact, std::uint32_t index) { return contact.triangle < index; };
     const auto contact = std::lower_bound(contacts->begin(), contacts->end(), triangle, before);
-    if (contact != contacts->end() && contact->triangle == triangle) return cover.normal_T(contact->impact.normal_M);
+    const bool met = contact != contacts->end() && contact->triangle == triangle && body->has(contact->piece);
+    if (met) return cover.normal_T(contact->impact.normal_M);
   }
   const PointHull hull(corners_T);
   const auto& [a, b, c] = corners_T;
@@ -82,10 +92,13 @@ void Facing::forgetNearest() {
 }
 
 void Facings::begin(const ProximityRequest& request, Workpieces& unplaced) {
+  assert(request.bodies.size() == request.pose.bodies.size());
   margin_ = padding_ = 0.0;
   surface_count_ = 0;
+  body_count_ = 0;
   count_ = 0;
-  surfaces_.resize(std::max(surfaces_.size(), request.workpieces.size()));  // facings point into it
+  surfaces_.resize(std::max(surfaces_.size(), request.workpieces.size()));  // bodies point into it, facings into both
+  bodies_.resize(std::max(bodies_.size(), request.workpieces.size() * request.bodies.size()));
   eraseRemoved(request.workpieces, motions_);
   for (const auto& workpiece : request.workpieces) {
     const auto X_WM = request.pose.X_WM.find(workpiece->frame);
@@ -101,12 +114,10 @@ void Facings::place(const ProximityRequest& request, const std::shared_ptr<const
                     const Eigen::Isometry3d& X_WM) {
   SurfaceMotion& motion = motions_[workpiece->id];
   updateMotion(request.pose, workpiece, X_WM, motion);
-  ContactPolicy contact(request.tool, *workpiece, request.allowed, request.intentions);
-  if (contact.allowsAll()) return;
+  if (!placeBodies(request, *workpiece, X_WM)) return;
   PlacedSurface& surface = surfaces_[surface_count_++];
   surface.workpiece = workpiece;
   surface.motion = &motion;
-  surface.contact = std::move(contact);
   surface.contacts = nullptr;
   if (request.swept != nullptr) {
     for (const SweptObject& object : request.swept->objects) {
@@ -118,23 +129,39 @@ void Facings::place(const ProximityRequest& request, const std::shared_ptr<const
   surface.drift = driftOf(*workpiece, request.pose);
   margin_ = std::max(margin_, workpiece->mesh_M.margin() + surface.drift);
   padding_ = std::max(padding_, workpiece->mesh_M.padding());
-  face(request, surface, X_WM);
 }
 
-void Facings::face(const ProximityRequest& request, const PlacedSurface& surface, const Eigen::Isometry3d& X_WM) {
-  const TriangleMesh& mesh_M = surface.workpiece->mesh_M;
-  Eigen::Isometry3d X_MT = X_WM.inverse() * request.pose.X_WT;
-  X_MT.translation() -= mesh_M.origin();
-  const auto& pieces = request.tool.pieces();
+// Returns false if each body may touch the workpiece with every piece.
+bool Facings::placeBodies(const ProximityRequest& request, const Workpiece& workpiece, const Eigen::Isometry3d& X_WM) {
+  const size_t before = body_count_;
+  size_t first_piece = 0;
+  for (size_t i = 0; i < request.bodies.size(); ++i) {
+    const Tool& tool = *request.bodies[i];
+    ContactPolicy contact(tool, workpiece, request.allowed, request.intentions);
+    if (!contact.allowsAll()) {
+      const Eigen::Isometry3d& X_WT = request.pose.bodies[i].X_WB;
+      FacingBody& body = bodies_[body_count_++];
+      body = {&surfaces_[surface_count_], &tool, first_piece, std::move(contact), X_WT, X_WM.inverse() * X_WT};
+      body.X_MT.translation() -= workpiece.mesh_M.origin();
+    }
+    first_piece += tool.pieces().size();
+  }
+  return body_count_ > before;
+}
+
+void Facings::face(size_t body) {
+  const FacingBody& faced = bodies_[body];
+  const auto& pieces = faced.tool->pieces();
   for (size_t piece = 0; piece < pieces.size(); ++piece) {
-    if (surface.contact.allows(piece)) continue;
+    if (faced.contact.allows(piece)) continue;
     if (count_ == facings_.size()) facings_.emplace_back();
     Facing& facing = facings_[count_++];
+    facing.body = &faced;
+    facing.surface = faced.surface;
     facing.piece = piece;
-    facing.surface = &surface;
     facing.guess_T = Eigen::Vector3d::Zero();
     facing.forgetNearest();
-    facing.cover.begin(pieces[piece].shape_T, mesh_M, X_MT);
+    facing.cover.begin(pieces[piece].shape_T, facing.mesh(), faced.X_MT);
   }
 }
 

@@ -2,24 +2,10 @@
 
 #include <algorithm>
 
-#include "sweep_guard/common/error.h"
-
 namespace sweep_guard_core {
 namespace {
 
 constexpr size_t kBalls = 4096;  // before buffers grow
-
-void requireUsable(const MotionGuardOptions& options) {
-  BrakingLimits limits;
-  limits.deceleration = options.deceleration;
-  limits.standoff = options.standoff;
-  sweep_guard_core::requireUsable(limits);
-  if (options.dead_time < Duration::zero() || options.time_constant < Duration::zero()) {
-    throw InvalidInput("lag of the robot: must be >= 0 s");
-  }
-  if (!(options.escape_speed >= 0.0)) throw InvalidInput("escape speed: must be >= 0 m/s");
-  if (!(options.unseen_speed >= 0.0)) throw InvalidInput("unseen speed: must be >= 0 m/s");
-}
 
 Twist scaled(const Twist& twist_W, double scale) { return {scale * twist_W.v_W, scale * twist_W.w_W}; }
 
@@ -50,6 +36,13 @@ GuardedMotion MotionGuard::guard(const MotionInputs& inputs, const MotionCommand
     in_flight_.add(atPoint(motion.twist_W, to_origin_W), now.steady);
   }
   return motion;
+}
+
+PermissionDecision MotionGuard::permission(const MotionInputs& inputs, const Timestamps& command,
+                                           const Instant& now) const {
+  const PermissionDecision decision = decidePermission(inputs, command, now, options_);
+  if (decision.permission == Permission::kStop || !inputs.jointsMoveTool()) return decision;
+  return {Permission::kStop, PermissionCause::kMovingJoints};
 }
 
 void MotionGuard::stop(SteadyTime now) { in_flight_.add({}, now); }
@@ -83,15 +76,16 @@ void MotionGuard::limit(const MotionInputs& inputs, const MotionCommand& command
 Eigen::Isometry3d MotionGuard::expectedPose(const MotionInputs& inputs, const MotionCommand& command,
                                             const Instant& now) const {
   if (command.rest_WT) return *command.rest_WT;
-  return in_flight_.expectedPose(inputs.pose->X_WT, now.steady, age(inputs.pose->timestamps, now) + settlingTime());
+  return in_flight_.expectedPose(inputs.pose->X_WT, now.steady,
+                                 age(inputs.pose->timestamps, now) + options_.settlingTime());
 }
 
 BrakingLimits MotionGuard::brakingLimits(const MotionInputs& inputs, const MotionCommand& command,
                                          const Instant& now) const {
   const Duration age_of_inputs = std::max(age(inputs.planes->timestamps, now), age(inputs.pose->timestamps, now));
-  const Duration reaction = command.period + age_of_inputs + options_.dead_time + options_.time_constant;
-  return {options_.deceleration, std::max(toSeconds(reaction), 1e-3), options_.standoff,
-          radiusAbout(command.point_T, *inputs.tool)};
+  BrakingLimits limits = options_.brakingLimits(command.period, age_of_inputs);
+  limits.tool_radius = radiusAbout(command.point_T, *inputs.tool);
+  return limits;
 }
 
 void MotionGuard::collectFacing(const MotionInputs& inputs, const MotionCommand& command,
@@ -110,13 +104,13 @@ std::optional<GuardedMotion::Limiting> MotionGuard::limiting(const Twist& comman
                                                              const BrakingLimits& limits) const {
   std::optional<GuardedMotion::Limiting> most;
   double largest_excess = 0.0;
-  const double turn_rate = command_W.w_W.norm();
+  const double acceleration = arcAcceleration(command_W, limits.tool_radius);
   for (size_t i = 0; i < facing_.size(); ++i) {
-    const double allowed = closingLimit(facing_[i], turn_rate, limits);
+    const double allowed = closingLimit(facing_[i], acceleration, limits);
     const double excess = closingSpeed(facing_[i], command_W) - allowed;
     if (excess <= largest_excess) continue;
     largest_excess = excess;
-    most = GuardedMotion::Limiting{plane_of_[i], facing_[i].gap, allowed};
+    most = GuardedMotion::Limiting{plane_of_[i], facing_[i].normal_W, facing_[i].gap, allowed};
   }
   return most;
 }

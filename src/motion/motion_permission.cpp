@@ -1,5 +1,9 @@
 #include "sweep_guard/motion/motion_permission.h"
 
+#include <algorithm>
+
+#include "sweep_guard/common/error.h"
+
 namespace sweep_guard_core {
 namespace {
 
@@ -29,6 +33,20 @@ bool mayEscape(const MotionInputs& inputs, const Instant& now, const MotionGuard
 
 }  // namespace
 
+BrakingLimits MotionGuardOptions::brakingLimits(Duration period, Duration age_of_inputs) const {
+  const Duration reaction = period + age_of_inputs + dead_time + time_constant;
+  return {deceleration, std::max(toSeconds(reaction), 1e-3), standoff, 0.0};
+}
+
+void requireUsable(const MotionGuardOptions& options) {
+  requireUsable(options.brakingLimits({}, {}));
+  if (options.dead_time < Duration::zero() || options.time_constant < Duration::zero()) {
+    throw InvalidInput("lag of the robot: must be >= 0 s");
+  }
+  if (!(options.escape_speed >= 0.0)) throw InvalidInput("escape speed: must be >= 0 m/s");
+  if (!(options.unseen_speed >= 0.0)) throw InvalidInput("unseen speed: must be >= 0 m/s");
+}
+
 const char* textOf(PermissionCause cause) {
   switch (cause) {
     case PermissionCause::kGuarded:
@@ -57,10 +75,20 @@ const char* textOf(PermissionCause cause) {
       return "no new tool pose";
     case PermissionCause::kOldPose:
       return "the newest tool pose is too old";
+    case PermissionCause::kNoJoints:
+      return "no joint positions yet";
+    case PermissionCause::kJointsSilent:
+      return "no new joint positions";
+    case PermissionCause::kOldJoints:
+      return "the newest joint positions are too old";
+    case PermissionCause::kOtherJoints:
+      return "the separating planes are not of this robot: do its joints move the guard's tool?";
     case PermissionCause::kIncomplete:
       return "not every workpiece was tested at the newest pose";
     case PermissionCause::kNoTool:
       return "the balls of this tool have not arrived";
+    case PermissionCause::kMovingJoints:
+      return "joints move the guard's tool: it needs commands of joints";
     case PermissionCause::kDeviceSilent:
       return "no new pose of the device";
   }

@@ -1,6 +1,7 @@
 #include "sweep_guard/motion/plane_set.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "sweep_guard/common/error.h"
@@ -54,12 +55,18 @@ bool passesASurface(const PlaneSet& planes, const ToolBalls& tool, const Eigen::
 
 void requireUsable(const PlaneSet& planes) {
   requireUsable(planes.uncovered);
+  const auto finite = [](double position) { return std::isfinite(position); };
+  if (planes.joints.size() != planes.positions.size() ||
+      !std::all_of(planes.positions.begin(), planes.positions.end(), finite))
+    throw InvalidInput("separating planes refused: not one finite position of each joint");
   for (const SeparatingPlane& plane : planes.planes) {
     requireUsable(FacingBall{plane.normal_W, plane.point_W, plane.gap, plane.surface_speed});
   }
 }
 
 void requireUsable(const ToolBalls& tool) {
+  if (!tool.frames.empty() && tool.frames.size() != tool.pieces.size())
+    throw InvalidInput("balls of the tool refused: not one frame of each piece");
   for (const std::vector<ToolBall>& balls : tool.pieces) {
     if (balls.empty()) throw InvalidInput("balls of the tool refused: a piece has none");
     for (const ToolBall& ball : balls) {

@@ -20,13 +20,13 @@ class ProximityFinder::Search {
   void reset() { facings_.reset(); }
 
  private:
-  enum class Kind : std::uint8_t { kMesh, kGroup, kCluster, kTriangle, kSeparated };
+  enum class Kind : std::uint8_t { kMesh, kGroup, kCluster, kTriangle, kSeparated, kBody };
 
-  // A part of a mesh before a piece. Of all that wait, the one that may be nearest is next.
+  // A part of a mesh before a piece, or a body before a mesh. Of all that wait, the one that may be nearest is next.
   struct WaitingPart {
     double bound;  // lower bound on the distance [m]
     std::uint32_t facing;
-    std::uint32_t index;    // of the group, cluster, triangle or separation
+    std::uint32_t index;    // of the group, cluster, triangle, separation or body
     std::uint32_t checked;  // number of planes that it does not lie behind
     Kind kind;
 
@@ -35,6 +35,7 @@ class ProximityFinder::Search {
     }
   };
 
+  bool face(std::uint32_t body);
   void pushIntended(std::uint32_t index);
 
   void push(const WaitingPart& waiting);
@@ -49,13 +50,13 @@ class ProximityFinder::Search {
   void open(const WaitingPart& waiting, const Cluster& cluster, const CenteredBox& box);
 
   bool postpone(WaitingPart waiting);
-  void seed(const WaitingPart& waiting, const Cluster& cluster, const CenteredBox& box);
+  double seed(const WaitingPart& waiting, const Cluster& cluster, const CenteredBox& box);
   void wait(std::uint32_t index, const SeparatedTriangle& separated);
   bool standFor(const WaitingPart& waiting, const SeparatedTriangle& separated);
   bool leaveOver(double distance);
   template <typename... Part>
   void quicken(size_t plane, const Facing& facing, const Part&... part) {
-    sweep_guard_core::quicken(found_->planes[plane].plane, facing, request_->pose.X_WT, part...);
+    sweep_guard_core::quicken(found_->planes[plane].plane, facing, part...);
   }
 
   void begin();
@@ -77,12 +78,7 @@ void ProximityFinder::Search::begin() {
   separated_.clear();
   facings_.begin(*request_, found_->unplaced);
   reach_ = request_->reach + facings_.padding();
-  for (std::uint32_t i = 0; i < facings_.size(); ++i) {
-    const Facing& facing = facings_[i];
-    const CenteredBox box(facing.surface->boxes.of(facing.mesh().order()));
-    push({facing.cover.distance(box), i, 0, 0, Kind::kMesh});
-    pushIntended(i);
-  }
+  for (std::uint32_t i = 0; i < facings_.bodies(); ++i) push({facings_.body(i).distance(), 0, i, 0, Kind::kBody});
 }
 
 void ProximityFinder::Search::run(const ProximityRequest& request, Proximity& proximity) {
@@ -98,10 +94,23 @@ void ProximityFinder::Search::run(const ProximityRequest& request, Proximity& pr
   found_ = nullptr;
 }
 
+// Bodies that are farther than the search goes are never faced.
+bool ProximityFinder::Search::face(std::uint32_t body) {
+  auto i = static_cast<std::uint32_t>(facings_.size());
+  facings_.face(body);
+  for (; i < facings_.size(); ++i) {
+    const Facing& facing = facings_[i];
+    const CenteredBox box(facing.surface->boxes.of(facing.mesh().order()));
+    push({facing.cover.distance(box), i, 0, 0, Kind::kMesh});
+    pushIntended(i);
+  }
+  return true;
+}
+
 // They are not where the boxes of the mesh say.
 void ProximityFinder::Search::pushIntended(std::uint32_t index) {
   const Facing& facing = facings_[index];
-  for (const Intention* intention : facing.surface->contact.intentionsFor(facing.piece)) {
+  for (const Intention* intention : facing.body->contact.intentionsFor(facing.piece)) {
     for (const std::uint32_t triangle : intention->triangles)
       push({facing.cover.distance(facing.corners(triangle)), index, triangle, 0, Kind::kTriangle});
   }
@@ -121,6 +130,7 @@ ProximityFinder::Search::WaitingPart ProximityFinder::Search::pop() {
 
 // Returns false at the end of the search.
 bool ProximityFinder::Search::process(const WaitingPart& waiting) {
+  if (waiting.kind == Kind::kBody) return face(waiting.index);
   const MeshOrder& order = facings_[waiting.facing].mesh().order();
   switch (waiting.kind) {
     case Kind::kMesh:
@@ -167,12 +177,12 @@ void ProximityFinder::Search::open(const WaitingPart& waiting, const ClusterGrou
 
 void ProximityFinder::Search::open(const WaitingPart& waiting, const Cluster& cluster, const CenteredBox& box) {
   Facing& facing = facings_[waiting.facing];
-  if (!facing.cover.hasNearest()) seed(waiting, cluster, box);
+  const double least = facing.cover.hasNearest() ? 0.0 : seed(waiting, cluster, box);
   const PieceCover::Classified classified = facing.cover.classify(cluster, box);
   for (const size_t plane : classified.standing) quicken(plane, facing, cluster, box);
   const double limit = std::min(facing.nearest, reach_);
-  double rest = classified.not_nearer != 0 ? facing.nearest : kInfinity;
-  for (std::uint64_t left = classified.nearer; left != 0; left &= left - 1) {
+  double rest = classified.not_nearer != 0 ? facing.nearest : least >= reach_ ? least : kInfinity;
+  for (std::uint64_t left = least >= reach_ ? 0 : classified.nearer; left != 0; left &= left - 1) {
     const std::uint32_t triangle = facing.triangleAt(cluster, left);
     if (facing.intendedDepth(triangle) > 0.0) continue;
     const double bound = std::max(waiting.bound, facing.cover.distance(facing.corners(triangle)));
@@ -192,8 +202,9 @@ bool ProximityFinder::Search::postpone(WaitingPart waiting) {
   return true;
 }
 
-// Separates one triangle of a cluster, so that it need not be done for those that are farther.
-void ProximityFinder::Search::seed(const WaitingPart& waiting, const Cluster& cluster, const CenteredBox& box) {
+// Separates one triangle of a cluster, so that it need not be done for those that are farther. Returns a lower bound on the
+// distance of those that no plane stands for.
+double ProximityFinder::Search::seed(const WaitingPart& waiting, const Cluster& cluster, const CenteredBox& box) {
   Facing& facing = facings_[waiting.facing];
   double least = kInfinity;
   std::uint32_t nearest = 0;
@@ -204,9 +215,10 @@ void ProximityFinder::Search::seed(const WaitingPart& waiting, const Cluster& cl
     if (distance < least) nearest = triangle;
     least = std::min(least, distance);
   }
-  if (least >= reach_) return;
+  if (least >= reach_) return least;
   const SeparatedTriangle separated = facing.separate(nearest);
   if (separated.gap > 0.0) wait(waiting.facing, separated);
+  return least;
 }
 
 void ProximityFinder::Search::wait(std::uint32_t index, const SeparatedTriangle& separated) {
@@ -245,10 +257,10 @@ bool ProximityFinder::Search::processTriangle(const WaitingPart& waiting) {
 // Returns false if it is left over: no plane is free.
 bool ProximityFinder::Search::standFor(const WaitingPart& waiting, const SeparatedTriangle& separated) {
   Facing& facing = facings_[waiting.facing];
-  if (separated.gap <= 0.0 && joinFacingPlane(facing, separated, request_->pose.X_WT, found_->planes)) return true;
+  if (separated.gap <= 0.0 && joinFacingPlane(facing, separated, found_->planes)) return true;
   const double distance = std::min((1.0 - kNearer) * separated.gap, leastBound());
   if (distance >= reach_ || found_->planes.size() == kMaxPlanes) return leaveOver(distance);
-  addFacingPlane(facing, separated, request_->pose.X_WT, found_->planes);
+  addFacingPlane(facing, separated, found_->planes);
   return true;
 }
 

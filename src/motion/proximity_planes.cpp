@@ -16,7 +16,7 @@ ProximityPlane* similarPlane(const Facing& facing, const Eigen::Vector3d& n_W, s
   ProximityPlane* best = nullptr;
   double cosine = kSameNormal;
   for (ProximityPlane& each : planes) {
-    const bool of_facing = each.workpiece == facing.surface->workpiece && each.plane.piece == facing.piece;
+    const bool of_facing = each.workpiece == facing.surface->workpiece && each.plane.piece == facing.pieceOfTool();
     if (!of_facing || !each.contact || !(each.plane.normal_W.dot(n_W) >= cosine)) continue;
     cosine = each.plane.normal_W.dot(n_W);
     best = &each;
@@ -26,8 +26,8 @@ ProximityPlane* similarPlane(const Facing& facing, const Eigen::Vector3d& n_W, s
 
 }  // namespace
 
-void addFacingPlane(Facing& facing, const SeparatedTriangle& separated, const Eigen::Isometry3d& X_WT,
-                    std::vector<ProximityPlane>& planes) {
+void addFacingPlane(Facing& facing, const SeparatedTriangle& separated, std::vector<ProximityPlane>& planes) {
+  const Eigen::Isometry3d& X_WT = facing.body->X_WT;
   const TriangleMesh& mesh_M = facing.mesh();
   const double slack = separated.gap > 0.0 ? std::max(kSlack * separated.gap, kMinSlack * mesh_M.radius()) : 0.0;
   const double step = slack + mesh_M.margin();
@@ -36,16 +36,16 @@ void addFacingPlane(Facing& facing, const SeparatedTriangle& separated, const Ei
       separated.normal_T.dot(separated.top_T) + slack;  // the rest of what it stands for has a margin, too
   if (separated.gap > 0.0) facing.cover.add(separated.normal_T, behind, planes.size());
   const double drift = facing.surface->drift;
-  planes.push_back({{facing.piece, X_WT.linear() * separated.normal_T, X_WT * (point_T + drift * separated.normal_T),
-                     separated.gap - step - drift, -kInfinity},
+  planes.push_back({{facing.pieceOfTool(), X_WT.linear() * separated.normal_T,
+                     X_WT * (point_T + drift * separated.normal_T), separated.gap - step - drift, -kInfinity},
                     facing.surface->workpiece,
                     separated.triangle,
                     separated.gap <= 0.0});
-  quicken(planes.back().plane, facing, X_WT, mesh_M.triangles()[separated.triangle]);
+  quicken(planes.back().plane, facing, mesh_M.triangles()[separated.triangle]);
 }
 
-bool joinFacingPlane(const Facing& facing, const SeparatedTriangle& separated, const Eigen::Isometry3d& X_WT,
-                     std::vector<ProximityPlane>& planes) {
+bool joinFacingPlane(const Facing& facing, const SeparatedTriangle& separated, std::vector<ProximityPlane>& planes) {
+  const Eigen::Isometry3d& X_WT = facing.body->X_WT;
   ProximityPlane* const best = similarPlane(facing, X_WT.linear() * separated.normal_T, planes);
   if (best == nullptr) return false;
   SeparatingPlane& plane = best->plane;
@@ -54,7 +54,7 @@ bool joinFacingPlane(const Facing& facing, const SeparatedTriangle& separated, c
   const double step =
       std::max(0.0, plane.normal_W.dot(top_W - plane.point_W) + facing.mesh().margin() + facing.surface->drift);
   moveOn(plane, step);
-  quicken(plane, facing, X_WT, facing.mesh().triangles()[separated.triangle]);
+  quicken(plane, facing, facing.mesh().triangles()[separated.triangle]);
   return true;
 }
 

@@ -11,12 +11,6 @@ namespace {
 constexpr double kCommandRounding = 1e-11;  // of the command itself
 constexpr double kMaxRounding = 1.5e-6;     // of the nearest velocity, between planes that are nearly parallel
 
-// A turn may also close a gap by its second order, until the next command.
-bool opens(const FacingBall& ball, const Twist& twist_W, const BrakingLimits& limits) {
-  const double turned = 0.5 * limits.tool_radius * twist_W.w_W.squaredNorm() * limits.reaction_time;
-  return closingSpeed(ball, twist_W) + std::max(0.0, ball.surface_speed) + turned < 0.0;
-}
-
 }  // namespace
 
 VelocityLimiter::VelocityLimiter(size_t balls) {
@@ -44,12 +38,12 @@ Twist VelocityLimiter::limit(const Twist& command_W, const std::vector<FacingBal
 
 void VelocityLimiter::collectRows(const Twist& command_W, const std::vector<FacingBall>& facing,
                                   const BrakingLimits& limits) {
-  const double turn_rate = command_W.w_W.norm();
+  const double acceleration = arcAcceleration(command_W, limits.tool_radius);
   rows_.clear();
   for (const FacingBall& ball : facing) {
     requireUsable(ball);
     const double turning = -ball.normal_W.dot(command_W.w_W.cross(ball.center_W));
-    rows_.push_back({ball.normal_W, turning, closingLimit(ball, turn_rate, limits)});
+    rows_.push_back({ball.normal_W, turning, closingLimit(ball, acceleration, limits)});
   }
 }
 
@@ -100,8 +94,10 @@ Twist escapeVelocity(const Twist& command_W, const std::vector<FacingBall>& faci
   const double allowed = std::min(escape_speed, allowedSpeed(uncovered, limits));
   const double scale = fastest > allowed ? allowed / fastest : 1.0;
   const Twist escape_W{scale * command_W.v_W, scale * command_W.w_W};
-  const bool all_grow =
-      std::all_of(facing.begin(), facing.end(), [&](const FacingBall& ball) { return opens(ball, escape_W, limits); });
+  const double acceleration = limits.tool_radius * escape_W.w_W.squaredNorm();
+  const bool all_grow = std::all_of(facing.begin(), facing.end(), [&](const FacingBall& ball) {
+    return opens(ball, closingSpeed(ball, escape_W), acceleration, limits);
+  });
   return all_grow ? escape_W : Twist{};
 }
 

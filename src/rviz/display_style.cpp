@@ -7,7 +7,7 @@ constexpr ElementStyle DisplayStyle::*kGuardElements[] = {
     &DisplayStyle::touched,   &DisplayStyle::reflex,  &DisplayStyle::considered, &DisplayStyle::measured,
     &DisplayStyle::predicted, &DisplayStyle::tool,    &DisplayStyle::ghosts,     &DisplayStyle::path,
     &DisplayStyle::contacts,  &DisplayStyle::normals, &DisplayStyle::depths,     &DisplayStyle::intended,
-    &DisplayStyle::allowed,   &DisplayStyle::force};
+    &DisplayStyle::allowed,   &DisplayStyle::force,   &DisplayStyle::way_back};
 
 constexpr float kPale = 0.3F;  // of the opacity
 

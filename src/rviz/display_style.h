@@ -33,10 +33,12 @@ struct DisplayStyle {
   ElementStyle contacts;
   float point_size = 0.0F;  ///< of a contact point [m]
   ElementStyle normals;
-  float normal_length = 0.0F;  ///< [m]
-  ElementStyle depths;         ///< of contacts: a spike into the workpiece, and a label with the largest depth
-  ElementStyle force;          ///< of a workpiece on the tool, with a label
-  float force_length = 0.0F;   ///< of its arrow, per force [m/N]
+  float normal_length = 0.0F;    ///< [m]
+  ElementStyle depths;           ///< of contacts: a spike into the workpiece, and a label with the largest depth
+  ElementStyle force;            ///< of a workpiece on the tool, with a label
+  float force_length = 0.0F;     ///< of its arrow, per force [m/N]
+  ElementStyle way_back;         ///< of a robot that a motion guard holds back: an arrow
+  float way_back_length = 0.0F;  ///< [m]
   ColorBy color_by = ColorBy::kNothing;
   std::optional<double>
       since_contact;  ///< [s] since the tool touched: the label says so, without spikes. Empty: it touches

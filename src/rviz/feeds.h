@@ -5,6 +5,7 @@
 #include <ros/spinner.h>
 #include <sweep_guard/Interaction.h>
 
+#include <boost/shared_ptr.hpp>
 #include <chrono>
 #include <string>
 #include <vector>
@@ -48,23 +49,40 @@ std::string describe(const sweep_guard::ObjectInteraction& object);
 /// force.
 std::string describe(const sweep_guard::Interaction& interaction);
 
-/// Receives the force on the tool. The guard computes it only for subscribers: listen while it is shown.
-class ForceFeed {
+/// Keeps the newest message of a topic. The guard computes some only for subscribers: listen while they are shown.
+template <typename Message>
+class NewestFeed {
  public:
-  ForceFeed() { node_.setCallbackQueue(&queue_); }
+  NewestFeed() { node_.setCallbackQueue(&queue_); }
 
-  /// Switches to another topic and forgets the force of the previous one. An empty topic ends listening.
-  void listen(const std::string& topic);
+  /// Switches to another topic and forgets the message of the previous one. An empty topic ends listening.
+  /// @throws ros::InvalidNameException if `topic` is not a valid name
+  void listen(const std::string& topic) {
+    if (topic == topic_) return;
+    topic_ = topic;
+    newest_.reset();
+    subscriber_.shutdown();
+    if (topic.empty()) return;
+    const auto keep = [this](const boost::shared_ptr<const Message>& message) {
+      newest_ = message;
+      received_ = std::chrono::steady_clock::now();
+    };
+    subscriber_ = node_.subscribe<Message>(topic, 1, keep, nullptr, ros::TransportHints().tcpNoDelay());
+  }
+  const std::string& topic() const { return topic_; }
 
-  /// Returns the newest force in words; empty: there is none, or none came for 0.5 s.
-  std::string text();
+  /// Returns the newest message; null: there is none, or none came for 0.5 s.
+  boost::shared_ptr<const Message> newest() {
+    queue_.callAvailable();
+    return std::chrono::steady_clock::now() - received_ > kSilent ? nullptr : newest_;
+  }
 
  private:
   ros::CallbackQueue queue_;
   ros::NodeHandle node_;
   std::string topic_;
   ros::Subscriber subscriber_;
-  std::string text_;
+  boost::shared_ptr<const Message> newest_;
   std::chrono::steady_clock::time_point received_;
 };
 

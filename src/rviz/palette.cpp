@@ -12,6 +12,8 @@ QColor inkOn(WarningLevel level) {
   return pale ? QColor(16, 16, 18) : QColor(255, 255, 255);
 }
 
+QColor heldColor(bool stopped) { return stopped ? QColor(200, 0, 145) : QColor(105, 30, 85); }
+
 QColor backdrop() { return {30, 32, 36}; }
 
 QColor unlit() { return {62, 65, 71}; }

@@ -8,6 +8,7 @@
 namespace sweep_guard_rviz {
 namespace {
 
+using sweep_guard::MotionStatus;
 using sweep_guard::Warning;
 using sweep_guard_core::toSeconds;
 
@@ -194,6 +195,14 @@ PanelState panelState(const std::optional<ReceivedWarning>& newest, const Instan
   state.target = targetOf(warning);
   state.reasons = reasonsOf(warning);
   return state;
+}
+
+HeldState heldState(const MotionStatus& status) {
+  if (status.code == MotionStatus::NO_WARNING) return {};
+  if (status.code != MotionStatus::DECELERATE_FOR_COLLISION) return {true, status.text};
+  char share[32];
+  std::snprintf(share, sizeof share, " (%.0f %% of the speed)", 100.0 * status.scale);
+  return {false, status.text + share};
 }
 
 }  // namespace sweep_guard_rviz

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <ros/time.h>
+#include <sweep_guard/MotionStatus.h>
 #include <sweep_guard/Warning.h>
 
 #include <chrono>
@@ -55,6 +56,14 @@ struct PanelState {
 /// @param newest  the newest warning; empty if none has arrived
 /// @param topic   topic of the warnings, named in the text
 PanelState panelState(const std::optional<ReceivedWarning>& newest, const Instant& now, const std::string& topic);
+
+/// Why a motion guard holds the robot back.
+struct HeldState {
+  bool stopped = false;  ///< nothing of the command is let through
+  std::string text;      ///< empty: the command is passed on, or there is none
+};
+
+HeldState heldState(const sweep_guard::MotionStatus& status);
 
 /// Returns the level of a warning of any age; kUnknown if the warning contradicts itself.
 WarningLevel levelOf(const sweep_guard::Warning& warning);

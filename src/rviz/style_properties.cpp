@@ -29,6 +29,8 @@ StyleProperties::StyleProperties(rviz::Property& parent, const std::function<voi
       add(&DisplayStyle::force, "Force",
           "Force of a workpiece on the tool, with volume and depth as text; the guard computes it while this is on.",
           {190, 90, 255}, 1.0F, false);
+  auto* const way_back =
+      add(&DisplayStyle::way_back, "Way back", "From where a motion guard holds the robot back.", {235, 0, 170}, 1.0F);
   max_edged_ = new rviz::IntProperty(
       "Edges Up To", 5000, "Edges are drawn for surfaces with at most this many triangles; lines are slow.", surface);
   max_edged_->setMin(0);
@@ -53,11 +55,13 @@ StyleProperties::StyleProperties(rviz::Property& parent, const std::function<voi
   normal_length_->setMin(1e-5F);
   force_length_ = new rviz::FloatProperty("Length", 0.03F, "[m/N]", force);
   force_length_->setMin(1e-6F);
+  way_back_length_ = new rviz::FloatProperty("Length", 0.1F, "[m]", way_back);
+  way_back_length_->setMin(1e-5F);
   for (rviz::Property* property :
        {static_cast<rviz::Property*>(max_edged_), static_cast<rviz::Property*>(history_),
         static_cast<rviz::Property*>(max_ghosts_), static_cast<rviz::Property*>(point_size_),
         static_cast<rviz::Property*>(normal_length_), static_cast<rviz::Property*>(color_by_),
-        static_cast<rviz::Property*>(force_length_)}) {
+        static_cast<rviz::Property*>(force_length_), static_cast<rviz::Property*>(way_back_length_)}) {
     QObject::connect(property, &rviz::Property::changed, &parent_, changed_);
   }
 }
@@ -91,6 +95,7 @@ DisplayStyle StyleProperties::style() const {
   style.point_size = point_size_->getFloat();
   style.normal_length = normal_length_->getFloat();
   style.force_length = force_length_->getFloat();
+  style.way_back_length = way_back_length_->getFloat();
   style.color_by = static_cast<ColorBy>(color_by_->getOptionInt());
   return style;
 }

@@ -44,6 +44,7 @@ class StyleProperties {
   rviz::FloatProperty* point_size_;
   rviz::FloatProperty* normal_length_;
   rviz::FloatProperty* force_length_;
+  rviz::FloatProperty* way_back_length_;
 };
 
 }  // namespace sweep_guard_rviz

@@ -13,8 +13,8 @@
 #include <pluginlib/class_list_macros.hpp>
 #include <utility>
 
-#include "rviz/drawing.h"
-#include "rviz/feeds.h"
+#include "common/frame_name.h"
+#include "rviz/ogre_conversions.h"
 
 namespace sweep_guard_rviz {
 namespace {
@@ -68,6 +68,7 @@ SweepDisplay::SweepDisplay() {
 SweepDisplay::~SweepDisplay() {
   unsubscribe();
   workpieces_.reset();
+  way_back_.reset();
   force_.reset();
   path_.reset();
   tool_.reset();
@@ -87,8 +88,10 @@ void SweepDisplay::addTopics() {
                                                        "Force of the workpieces on the tool.", *this);
   touches_topic_ =
       topic<sweep_guard::Touches>("Touches Topic", "sweep_guard/touches", "Which triangles were touched.", *this);
-  for (rviz::RosTopicProperty* each :
-       {view_topic_, tool_topic_, mesh_topic_, vertices_topic_, intended_topic_, interaction_topic_, touches_topic_}) {
+  motion_topic_ = topic<sweep_guard::MotionStatus>("Motion Status Topic", "motion_guard/status",
+                                                   "Why a motion guard holds the robot back.", *this);
+  for (rviz::RosTopicProperty* each : {view_topic_, tool_topic_, mesh_topic_, vertices_topic_, intended_topic_,
+                                       interaction_topic_, touches_topic_, motion_topic_}) {
     connect(each, &rviz::Property::changed, this, [this] {
       if (initialized()) reset();
     });
@@ -110,6 +113,7 @@ void SweepDisplay::onInitialize() {
   tool_ = std::make_unique<ToolVisual>(*scene_manager_, *guard_node_);
   path_ = std::make_unique<TipPath>(*scene_manager_, *guard_node_);
   force_ = std::make_unique<ForceVisual>(*scene_manager_, *guard_node_);
+  way_back_ = std::make_unique<Drawing>(*scene_manager_, *guard_node_, /*on_top=*/true);
   workpieces_ = std::make_unique<Workpieces>(*scene_manager_, *scene_node_);
 }
 
@@ -126,6 +130,7 @@ void SweepDisplay::subscribe() {
     subscribers_[1] = update_nh_.subscribe<sweep_guard::ToolShape>(
         tool_topic_->getTopicStd(), 1, [this](const sweep_guard::ToolShape::ConstPtr& shape) {
           tool_->setShape(*shape);
+          tool_shape_ = shape;
           stale_ = true;
         });
     subscribers_[2] = update_nh_.subscribe<sweep_guard::DeformableMesh>(
@@ -148,16 +153,11 @@ void SweepDisplay::subscribe() {
 }
 
 void SweepDisplay::subscribeByChoice(const DisplayStyle& style) {
-  if (!style.force.shown) {
-    interaction_subscriber_.shutdown();
-    interaction_.reset();
-  } else if (!interaction_subscriber_) {
-    interaction_subscriber_ = update_nh_.subscribe<sweep_guard::Interaction>(
-        interaction_topic_->getTopicStd(), 1, [this](const sweep_guard::Interaction::ConstPtr& interaction) {
-          interaction_ = interaction;
-          interaction_received_ = std::chrono::steady_clock::now();
-          stale_ = true;
-        });
+  try {
+    force_feed_.listen(style.force.shown ? interaction_topic_->getTopicStd() : "");
+    motion_feed_.listen(style.way_back.shown ? motion_topic_->getTopicStd() : "");
+  } catch (const ros::Exception& error) {
+    report("Topics", error.what(), "", StatusProperty::Error);
   }
   if (style.color_by == ColorBy::kNothing) {
     touches_subscriber_.shutdown();
@@ -172,7 +172,8 @@ void SweepDisplay::subscribeByChoice(const DisplayStyle& style) {
 
 void SweepDisplay::unsubscribe() {
   for (ros::Subscriber& subscriber : subscribers_) subscriber.shutdown();
-  interaction_subscriber_.shutdown();
+  force_feed_.listen("");
+  motion_feed_.listen("");
   touches_subscriber_.shutdown();
 }
 
@@ -180,9 +181,10 @@ void SweepDisplay::reset() {
   rviz::Display::reset();
   reported_.clear();
   view_.reset();
-  interaction_.reset();
+  tool_shape_.reset();
   if (initialized()) {
     force_->clear();
+    drawWayBack(DisplayStyle());
     workpieces_->clear();
     path_->clear();
     tool_->setShape({});
@@ -222,12 +224,26 @@ void SweepDisplay::draw() {
   drawTools(style);
   path_->show(view_->path, style.path);
   drawForce(style);
+  drawWayBack(style);
 }
 
 void SweepDisplay::drawForce(const DisplayStyle& style) {
-  const bool fresh = interaction_ && std::chrono::steady_clock::now() - interaction_received_ <= kSilent;
-  if (fresh && style.force.shown && hasPose(*view_)) return force_->show(*interaction_, view_->pose, style);
+  const auto interaction = force_feed_.newest();
+  if (interaction && style.force.shown && hasPose(*view_)) return force_->show(*interaction, view_->pose, style);
   force_->clear();
+}
+
+void SweepDisplay::drawWayBack(const DisplayStyle& style) {
+  const auto motion = motion_feed_.newest();
+  const bool placed = motion && tool_shape_ && view_ && hasPose(*view_) &&
+                      sweep_guard_core::isSameFrame(motion->header.frame_id, view_->header.frame_id);
+  const auto from = placed ? heldPoint(*motion, *tool_shape_, bodiesOf(*view_)) : std::nullopt;
+  if (from) {
+    const Ogre::Vector3 along = style.way_back_length * toOgre(motion->normal);
+    way_back_->addArrow(*from, *from + along, 0.06F * style.way_back_length);
+  }
+  way_back_->paint(style.way_back.color, style.way_back.color);
+  way_back_->show();
 }
 
 void SweepDisplay::drawTools(const DisplayStyle& style) {

@@ -9,6 +9,8 @@
 #include <memory>
 #include <string>
 
+#include "rviz/drawing.h"
+#include "rviz/feeds.h"
 #include "rviz/force_visual.h"
 #include "rviz/style_properties.h"
 #include "rviz/tip_path.h"
@@ -23,7 +25,8 @@ namespace sweep_guard_rviz {
 
 /// Draws the deforming workpieces together with the content of a guard's `~view`. Draws only the workpieces when no
 /// `~view` has arrived for 0.5 s, and no tool while its pose is not known. Optionally draws the force on the tool and
-/// colors the touched triangles. Subscribes to nothing while it is disabled.
+/// colors the touched triangles. While a motion guard holds the robot back, draws an arrow from where it does, the way back.
+/// Subscribes to nothing while it is disabled.
 class SweepDisplay : public rviz::Display {
  public:
   SweepDisplay();
@@ -56,6 +59,7 @@ class SweepDisplay : public rviz::Display {
   void draw();
   void drawTools(const DisplayStyle& style);
   void drawForce(const DisplayStyle& style);
+  void drawWayBack(const DisplayStyle& style);
   void place();
   void reportInputs();
   /// Sets one line of the status.
@@ -71,19 +75,21 @@ class SweepDisplay : public rviz::Display {
   rviz::RosTopicProperty* intended_topic_ = nullptr;
   rviz::RosTopicProperty* interaction_topic_ = nullptr;
   rviz::RosTopicProperty* touches_topic_ = nullptr;
+  rviz::RosTopicProperty* motion_topic_ = nullptr;
   std::unique_ptr<StyleProperties> style_;
 
   Ogre::SceneNode* guard_node_ = nullptr;  // at the fixed frame of the guard
   std::unique_ptr<ToolVisual> tool_;
   std::unique_ptr<TipPath> path_;
   std::unique_ptr<ForceVisual> force_;
+  std::unique_ptr<Drawing> way_back_;
   std::unique_ptr<Workpieces> workpieces_;
 
   ros::Subscriber subscribers_[5];
-  ros::Subscriber interaction_subscriber_;  // only while the force is shown: the guard computes it for its subscribers
-  ros::Subscriber touches_subscriber_;      // only while they are shown
-  sweep_guard::Interaction::ConstPtr interaction_;
-  SteadyTime interaction_received_;
+  NewestFeed<sweep_guard::Interaction> force_feed_;  // these only while they are shown
+  NewestFeed<sweep_guard::MotionStatus> motion_feed_;
+  ros::Subscriber touches_subscriber_;
+  sweep_guard::ToolShape::ConstPtr tool_shape_;
   sweep_guard::View::ConstPtr view_;
   SteadyTime view_received_;
   bool was_silent_ = true;

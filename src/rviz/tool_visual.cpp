@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "rviz/drawing.h"
@@ -19,6 +20,8 @@ namespace sweep_guard_rviz {
 namespace {
 
 using Ogre::Vector3;
+
+constexpr float kAsNear = 1e-4F;  // [m]
 
 std::string newName() {
   static int made = 0;
@@ -139,6 +142,27 @@ void ToolVisual::show(const std::vector<PlacedTool>& places) {
     paintShaded(*instances_[i].material->getTechnique(0)->getPass(0), places[place].color);
   }
   shown_ = places.size();
+}
+
+std::optional<Ogre::Vector3> heldPoint(const sweep_guard::MotionStatus& status, const sweep_guard::ToolShape& shape,
+                                       const BodyPoses& bodies) {
+  const Vector3 normal = toOgre(status.normal);
+  const bool held = status.code != sweep_guard::MotionStatus::NO_WARNING && !normal.isZeroLength();
+  if (!held || status.piece >= shape.parts.size() || bodyOf(shape, status.piece) >= bodies.size()) return {};
+  const geometry_msgs::Pose& pose = bodies[bodyOf(shape, status.piece)];
+  Vector3 sum;
+  float count = 0.0F;
+  float nearest = std::numeric_limits<float>::infinity();
+  for (const geometry_msgs::Point& vertex : shape.parts[status.piece].vertices) {
+    const Vector3 point = toOgre(pose.position) + toOgre(pose.orientation) * toOgre(vertex);
+    const float height = normal.dotProduct(point);
+    if (height > nearest + kAsNear) continue;
+    if (height < nearest - kAsNear) count = 0.0F;
+    sum = count > 0.0F ? sum + point : point;
+    nearest = count > 0.0F ? nearest : height;
+    ++count;
+  }
+  return count > 0.0F ? std::optional(sum / count) : std::nullopt;
 }
 
 std::vector<size_t> pickGhosts(const std::vector<BodyPoses>& path, size_t max_count,

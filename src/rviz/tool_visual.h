@@ -4,9 +4,12 @@
 #include <OgreMaterial.h>
 #include <OgreMesh.h>
 #include <OgrePrerequisites.h>
+#include <OgreVector.h>
 #include <geometry_msgs/Pose.h>
+#include <sweep_guard/MotionStatus.h>
 #include <sweep_guard/ToolShape.h>
 
+#include <optional>
 #include <vector>
 
 namespace sweep_guard_rviz {
@@ -60,6 +63,12 @@ class ToolVisual {
   std::vector<Instance> instances_;  // of each body in turn, for each tool
   size_t shown_ = 0;
 };
+
+/// Returns where a motion guard holds the tool back: the middle of those points of the piece that come nearest to the surface;
+/// empty: it passes commands on, no surface limits them, or the piece is not known.
+/// @param bodies  poses of the tool's bodies in the frame of the status
+std::optional<Ogre::Vector3> heldPoint(const sweep_guard::MotionStatus& status, const sweep_guard::ToolShape& shape,
+                                       const BodyPoses& bodies);
 
 /// Returns the indices of the poses at which ghosts are drawn: evenly spread, without those in which no body has moved by half
 /// of its thickness since the previous one.

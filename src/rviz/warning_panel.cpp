@@ -12,6 +12,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "rviz/palette.h"
 #include "rviz/traffic_light.h"
 
 namespace sweep_guard_rviz {
@@ -20,6 +21,7 @@ namespace {
 constexpr unsigned kRefreshesPerChart = 3;
 constexpr size_t kMaxReasons = 4;
 const char* const kTopic = "Warning Topic";
+const char* const kMotionTopic = "Motion Status Topic";
 
 QString bullets(const std::vector<std::string>& reasons, size_t max_count) {
   QStringList lines;
@@ -42,6 +44,7 @@ QLabel* makeLabel(QWidget* parent) {
 WarningPanel::WarningPanel(QWidget* parent)
     : rviz::Panel(parent),
       light_(new TrafficLight(this)),
+      held_(makeLabel(this)),
       target_(makeLabel(this)),
       force_(makeLabel(this)),
       reasons_(makeLabel(this)),
@@ -50,8 +53,10 @@ WarningPanel::WarningPanel(QWidget* parent)
       enable_(new QPushButton(this)),
       reset_(new QPushButton("Reset", this)),
       outcome_(makeLabel(this)),
-      topic_edit_(new QLineEdit(this)) {
+      topic_edit_(new QLineEdit(this)),
+      motion_edit_(new QLineEdit(this)) {
   light_->setObjectName("light");
+  held_->setObjectName("held");
   force_->setObjectName("force");
   acknowledge_->setObjectName("acknowledge");
   enable_->setObjectName("enable");
@@ -68,23 +73,30 @@ WarningPanel::WarningPanel(QWidget* parent)
     setTopic(topic_edit_->text().toStdString());
     Q_EMIT configChanged();
   });
+  connect(motion_edit_, &QLineEdit::editingFinished, this, [this] {
+    if (motion_edit_->text().toStdString() == motion_feed_.topic()) return;
+    setMotionTopic(motion_edit_->text().toStdString());
+    Q_EMIT configChanged();
+  });
   setTopic("sweep_guard/warning");
+  setMotionTopic("motion_guard/status");
   connect(&timer_, &QTimer::timeout, this, [this] { refresh(currentInstant()); });
   timer_.setTimerType(Qt::PreciseTimer);
   timer_.start(kPeriod);
 }
 
 WarningPanel::~WarningPanel() {
-  // It emits editingFinished when it loses the focus, after the rest of the panel is destroyed.
-  disconnect(topic_edit_, nullptr, this, nullptr);
+  // They emit editingFinished when they lose the focus, after the rest of the panel is destroyed.
+  for (const QLineEdit* const edit : {topic_edit_, motion_edit_}) disconnect(edit, nullptr, this, nullptr);
 }
 
 void WarningPanel::layOut() {
   QFont bold = target_->font();
   bold.setBold(true);
   target_->setFont(bold);
+  held_->setFont(bold);
   const int line = reasons_->fontMetrics().lineSpacing();
-  topic_edit_->setFocusPolicy(Qt::ClickFocus);
+  for (QLineEdit* const edit : {topic_edit_, motion_edit_}) edit->setFocusPolicy(Qt::ClickFocus);
   acknowledge_->setToolTip(
       "Shows an amber warning of this workpiece with less emphasis for a while. This is no permission");
   reset_->setToolTip("Clears faults and forgets all poses, as after a start");
@@ -93,6 +105,7 @@ void WarningPanel::layOut() {
   place->setMinimumHeight(6 * line);  // keeps the widgets below in place
   auto* const texts = new QVBoxLayout(place);
   texts->setContentsMargins(9, 4, 9, 0);
+  texts->addWidget(held_);
   texts->addWidget(target_);
   texts->addWidget(force_);
   texts->addWidget(reasons_);
@@ -105,6 +118,7 @@ void WarningPanel::layOut() {
   auto* const topic = new QFormLayout;
   topic->setContentsMargins(9, 0, 9, 6);
   topic->addRow("Topic", topic_edit_);
+  topic->addRow("Motion", motion_edit_);
   topic->addRow(outcome_);
   outcome_->hide();
 
@@ -121,11 +135,13 @@ void WarningPanel::load(const rviz::Config& config) {
   rviz::Panel::load(config);
   QString topic;
   if (config.mapGetString(kTopic, &topic)) setTopic(topic.toStdString());
+  if (config.mapGetString(kMotionTopic, &topic)) setMotionTopic(topic.toStdString());
 }
 
 void WarningPanel::save(rviz::Config config) const {
   rviz::Panel::save(config);
   config.mapSetValue(kTopic, QString::fromStdString(topic_));
+  config.mapSetValue(kMotionTopic, QString::fromStdString(motion_feed_.topic()));
 }
 
 void WarningPanel::setTopic(const std::string& topic) {
@@ -147,6 +163,15 @@ void WarningPanel::setTopic(const std::string& topic) {
   refresh(currentInstant());
 }
 
+void WarningPanel::setMotionTopic(const std::string& topic) {
+  motion_edit_->setText(QString::fromStdString(topic));
+  try {
+    motion_feed_.listen(topic);
+  } catch (const ros::InvalidNameException& error) {
+    showOutcome(error.what());
+  }
+}
+
 std::string WarningPanel::announceCall(const std::string& service) {
   std::string name = ros::names::append(guard_, service);
   showOutcome("waiting for " + name);
@@ -165,6 +190,7 @@ void WarningPanel::refresh(const Instant& now) {
   remember(warnings, now.steady);
   showState(now.steady);
   showForce();
+  showMotion();
   if (const auto outcome = call_.takeOutcome()) showOutcome(*outcome);
 }
 
@@ -193,9 +219,19 @@ void WarningPanel::showState(SteadyTime now) {
 void WarningPanel::showForce() {
   const bool touches = state_.level == WarningLevel::kContact && newest_ && !newest_->warning.held;
   force_feed_.listen(touches && !guard_.empty() ? ros::names::append(guard_, "interaction") : "");
-  const std::string text = force_feed_.text();
+  const auto force = force_feed_.newest();
+  const std::string text = force ? describe(*force) : "";
   force_->setText(QString::fromStdString(text));
   force_->setVisible(!text.empty());
+}
+
+void WarningPanel::showMotion() {
+  const auto status = motion_feed_.newest();
+  const HeldState held = status ? heldState(*status) : HeldState();
+  if (held.text.empty()) return held_->hide();
+  held_->setText(QString::fromStdString(held.text));
+  held_->setStyleSheet("padding: 4px; color: white; background: " + heldColor(held.stopped).name());
+  held_->show();
 }
 
 bool WarningPanel::canAcknowledge() const {

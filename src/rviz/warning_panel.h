@@ -20,7 +20,8 @@ class StripChart;
 class TrafficLight;
 
 /// Shows the warnings of one guard to its operator, in contact with the force on the tool, and acknowledges them; disables, enables
-/// and resets the guard. Saves the topic in rviz's configuration; the names of the services follow from the topic.
+/// and resets the guard. Shows why a motion guard holds the robot back. Saves both topics in rviz's configuration; the names of the
+/// services follow from that of the warnings.
 class WarningPanel : public rviz::Panel {
  public:
   /// Period of refresh(). Together with kSilence it is the delay until a dead guard turns the panel gray.
@@ -41,9 +42,11 @@ class WarningPanel : public rviz::Panel {
  private:
   void layOut();
   void setTopic(const std::string& topic);
+  void setMotionTopic(const std::string& topic);
   void remember(const std::vector<ReceivedWarning>& warnings, SteadyTime now);
   void showState(SteadyTime now);
   void showForce();
+  void showMotion();
   bool canAcknowledge() const;
   std::string announceCall(const std::string& service);
   void showOutcome(const std::string& outcome);
@@ -52,7 +55,8 @@ class WarningPanel : public rviz::Panel {
   std::string heard_topic_;  // resolved
   std::string guard_;        // namespace of its services; empty: no guard
   WarningFeed feed_;
-  ForceFeed force_feed_;
+  NewestFeed<sweep_guard::Interaction> force_feed_;
+  NewestFeed<sweep_guard::MotionStatus> motion_feed_;
   ServiceCall call_;
   std::optional<ReceivedWarning> newest_;
   LevelHistory history_;
@@ -60,6 +64,7 @@ class WarningPanel : public rviz::Panel {
   unsigned refreshes_ = 0;
 
   TrafficLight* light_;
+  QLabel* held_;
   QLabel* target_;
   QLabel* force_;
   QLabel* reasons_;
@@ -69,6 +74,7 @@ class WarningPanel : public rviz::Panel {
   QPushButton* reset_;
   QLabel* outcome_;
   QLineEdit* topic_edit_;
+  QLineEdit* motion_edit_;
   QTimer timer_;
 };
 

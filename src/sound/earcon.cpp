@@ -20,7 +20,10 @@ constexpr double kQuieter = 0.25;        // what is acknowledged
 constexpr Earcon kUnknownTone = {1.0, 0.24, 300.0, 225.0, 0.6};
 constexpr Earcon kTick = {2.0, 0.012, 1500.0, 1500.0, 0.15};
 constexpr Earcon kSilence = {2.0, 0.012, 1500.0, 1500.0, 0.0};
-constexpr Earcon kContactTone = {1.0, 1.0, 1000.0, 1000.0, 1.0};  // whole waves in a period: it joins its repetition
+constexpr Earcon kWarble = {0.1, 0.1, 480.0, 640.0, 0.0};  // whole waves in a period, as of the next
+constexpr double kHeldSoftest = 0.2;
+constexpr double kHeldLoudest = 0.5;
+constexpr Earcon kContactTone = {1.0, 1.0, 1000.0, 1000.0, 1.0};  // it joins its repetition
 
 double periodOf(const std::optional<Duration>& time_to_collision) {
   if (!time_to_collision) return kProbablePeriod;
@@ -36,6 +39,19 @@ double envelope(const Earcon& earcon, double time) {
 bool sameBeep(const Earcon& a, const Earcon& b) {
   return std::tie(a.length, a.first, a.second, a.amplitude) == std::tie(b.length, b.first, b.second, b.amplitude) &&
          a.steady() == b.steady();
+}
+
+bool sameTone(const Earcon& a, const Earcon& b) {
+  return a.steady() &&
+         std::tie(a.period, a.length, a.first, a.second) == std::tie(b.period, b.length, b.first, b.second);
+}
+
+Sound soundAt(const Earcon& earcon, double time) {
+  const double t = std::fmod(time, earcon.period);
+  const double half = 0.5 * earcon.length;
+  const double waves = t < half ? earcon.first * t : earcon.first * half + earcon.second * (t - half);
+  const double loudness = earcon.amplitude * envelope(earcon, t);
+  return {loudness * std::sin(2.0 * M_PI * waves), loudness};
 }
 
 constexpr std::uint32_t kBytesPerSample = 2;
@@ -62,43 +78,46 @@ Earcon earconOf(const MergedWarning& warning, bool clear_tick) {
   }
 }
 
-double sampleOf(const Earcon& earcon, double time) {
-  const double t = std::fmod(time, earcon.period);
-  const double half = 0.5 * earcon.length;
-  const double waves = t < half ? earcon.first * t : earcon.first * half + earcon.second * (t - half);
-  return earcon.amplitude * envelope(earcon, t) * std::sin(2.0 * M_PI * waves);
+Earcon heldEarcon(double share) {
+  Earcon earcon = kWarble;
+  if (share > 0.0) earcon.amplitude = kHeldSoftest + share * (kHeldLoudest - kHeldSoftest);
+  return earcon;
 }
 
-void Synthesizer::render(const Earcon& earcon, size_t count, std::vector<std::int16_t>& samples) {
-  for (size_t i = 0; i < count; ++i) {
-    turnTo(earcon);
-    const double value = std::clamp(next(), -1.0, 1.0);
-    samples.push_back(static_cast<std::int16_t>(std::lround(value * std::numeric_limits<std::int16_t>::max())));
-  }
-}
-
-void Synthesizer::turnTo(const Earcon& earcon) {
+void Voice::turnTo(const Earcon& earcon) {
   if (!sameBeep(playing_, earcon)) {
     if (faded_ < kFade) return;
     fading_ = playing_;
     fading_time_ = time_;
     faded_ = 0.0;
-    time_ = 0.0;
+    if (!sameTone(playing_, earcon)) time_ = 0.0;
   }
   playing_ = earcon;
 }
 
-double Synthesizer::next() {
-  const double step = 1.0 / rate_;
-  double value = sampleOf(playing_, time_);
+Sound Voice::next(const Earcon& earcon, double step) {
+  turnTo(earcon);
+  Sound sound = soundAt(playing_, time_);
   if (faded_ < kFade) {
-    value = std::min(1.0, faded_ / kFade) * value + (1.0 - faded_ / kFade) * sampleOf(fading_, fading_time_);
+    const double share = faded_ / kFade;
+    const Sound fading = soundAt(fading_, fading_time_);
+    sound = {share * sound.value + (1.0 - share) * fading.value,
+             share * sound.loudness + (1.0 - share) * fading.loudness};
     fading_time_ += step;
     faded_ += step;
   }
   time_ += step;
   if (time_ >= playing_.period) time_ = time_ - playing_.period < step ? time_ - playing_.period : 0.0;
-  return value;
+  return sound;
+}
+
+void Synthesizer::render(const Earcon& earcon, size_t count, std::vector<std::int16_t>& samples, const Earcon& behind) {
+  for (size_t i = 0; i < count; ++i) {
+    const Sound front = voice_.next(earcon, 1.0 / rate_);
+    const double value = front.value + (1.0 - front.loudness) * behind_.next(behind, 1.0 / rate_).value;
+    samples.push_back(
+        static_cast<std::int16_t>(std::lround(volume_ * value * std::numeric_limits<std::int16_t>::max())));
+  }
 }
 
 std::string wavFile(const std::vector<std::int16_t>& samples, std::uint32_t rate) {

@@ -24,27 +24,29 @@ struct Earcon {
 /// @param clear_tick  false: kClear is silent
 Earcon earconOf(const MergedWarning& warning, bool clear_tick);
 
-/// Returns the sound at one moment, in [-1, 1]. Beeps begin and end within 4 ms without a click.
-/// @param time  [s] since the begin of a beep, >= 0
-double sampleOf(const Earcon& earcon, double time);
+/// Returns how it sounds that a motion guard holds the robot back: a low warble between two tones, unlike any warning, the
+/// louder the more is held back.
+/// @param share  of the command, in [0, 1]; 0: silence
+Earcon heldEarcon(double share);
 
-/// Turns earcons into samples: signed 16 bits, one channel.
-class Synthesizer {
+/// A sound at one moment.
+struct Sound {
+  double value = 0.0;     ///< in [-loudness, loudness]
+  double loudness = 0.0;  ///< in [0, 1]
+};
+
+/// Plays one earcon after another. Beeps begin and end within 4 ms without a click. Those that only come faster or slower go on
+/// from the last one, and a tone without end that only gets louder goes on; another sound begins at once, or after 5 ms where one
+/// has just begun, while what there was fades within 5 ms.
+class Voice {
  public:
-  /// @param rate  samples per second, > 0
-  explicit Synthesizer(double rate) : rate_(rate) {}
-
-  /// Appends samples. Beeps that only come faster or slower go on from the last one; another sound begins at once, or
-  /// after 5 ms where one has just begun, while what there was fades within 5 ms.
-  void render(const Earcon& earcon, size_t count, std::vector<std::int16_t>& samples);
-
-  double rate() const { return rate_; }
+  /// Returns the sound now, and moves on.
+  /// @param step  [s] until the next call
+  Sound next(const Earcon& earcon, double step);
 
  private:
   void turnTo(const Earcon& earcon);
-  double next();
 
-  double rate_;
   Earcon playing_;
   double time_ = 0.0;  // [s] since the begin of a beep
   Earcon fading_;
@@ -52,6 +54,26 @@ class Synthesizer {
   double faded_ = kFade;      // [s] for how long it has
 
   static constexpr double kFade = 0.005;  // [s]
+};
+
+/// Turns earcons into samples: signed 16 bits, one channel.
+class Synthesizer {
+ public:
+  /// @param rate    samples per second, > 0
+  /// @param volume  in [0, 1]
+  explicit Synthesizer(double rate, double volume = 1.0) : rate_(rate), volume_(volume) {}
+
+  /// Appends samples: each earcon by a Voice of its own.
+  /// @param behind  sounds in what room `earcon` leaves: as loud as it is in the gaps, not at all behind the loudest sound
+  void render(const Earcon& earcon, size_t count, std::vector<std::int16_t>& samples, const Earcon& behind = {});
+
+  double rate() const { return rate_; }
+
+ private:
+  double rate_;
+  double volume_;
+  Voice voice_;
+  Voice behind_;
 };
 
 /// Returns samples as a WAV file: PCM, signed 16 bits, one channel.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "allocations.h"
 #include "haptics/planes.h"
 #include "motion/random_scenes.h"
@@ -21,7 +23,7 @@ const SeparatingPlane kWall = planeAt(Vector3d::UnitX(), Vector3d::Zero());
 ToolForce forceAt(const Vector3d& p_W, const std::vector<SeparatingPlane>& planes, const ContactLaw& law = kLaw,
                   const Twist& twist_W = {}) {
   ContactForceFinder finder;
-  return finder.find(planeSet(planes), ballTool(0.005), Isometry3d(Translation3d(p_W)), twist_W, law);
+  return finder.find(planeSet(planes), ballTool(0.005), {Isometry3d(Translation3d(p_W))}, twist_W, law);
 }
 
 TEST(ContactForceTest, AFloorPushesInProportionToTheDepth) {
@@ -68,9 +70,34 @@ TEST(ContactForceTest, TheTorqueIsThatOfTheForceAtTheNearestPoint) {
   tool.pieces[0].push_back({Vector3d(0.1, 0.0, -0.01), 0.002});
   ContactForceFinder finder;
   const Isometry3d X_WT(Translation3d(0.0, 0.0, 0.011));
-  const ToolForce force = finder.find(planeSet({kFloor}), tool, X_WT, {}, kLaw);
+  const ToolForce force = finder.find(planeSet({kFloor}), tool, {X_WT}, {}, kLaw);
   EXPECT_NEAR(force.force_W.z(), 1.0, 1e-9);
   EXPECT_TRUE(force.torque_W.isApprox(Vector3d(0.1, 0.0, -0.012).cross(force.force_W), 1e-9));
+}
+
+// A forearm of 0.2 m behind an elbow that turns about y, 0.3 m before the tool frame.
+TEST(ContactForceTest, AToolThatJointsMoveFeelsAsOneThatIsFixedWhereTheyPutIt) {
+  TreeLink fore;
+  fore.name = "fore";
+  fore.joint = "elbow";
+  fore.X_PJ = Translation3d(0.3, 0.0, 0.0);
+  fore.type = JointType::kRevolute;
+  fore.axis_J = Vector3d::UnitY();
+  MovingTool moving(std::make_shared<const KinematicTree>(std::vector<JointVariable>{{"elbow"}}, std::vector{fore}));
+  ToolBalls tool = ballTool(0.002);
+  tool.pieces[0][0].center_T = Vector3d(0.2, 0.0, 0.0);
+  tool.frames = {"fore"};
+  const Isometry3d X_WT(Translation3d(0.0, 0.0, 0.1));
+  moving.place({X_WT, {0.53}}, tool, Eigen::VectorXd::Zero(1), {});
+  ContactForceFinder finder;
+  const ToolForce bent = finder.find(planeSet({kFloor}), tool, {X_WT, &moving}, {}, kLaw);
+
+  ToolBalls fixed = ballTool(0.002);
+  fixed.pieces[0][0].center_T = Vector3d(0.3 + 0.2 * std::cos(0.53), 0.0, -0.2 * std::sin(0.53));
+  const ToolForce as_fixed = finder.find(planeSet({kFloor}), fixed, {X_WT}, {}, kLaw);
+  EXPECT_GT(as_fixed.force_W.z(), 0.5);
+  EXPECT_TRUE(bent.force_W.isApprox(as_fixed.force_W, 1e-9));
+  EXPECT_TRUE(bent.torque_W.isApprox(as_fixed.torque_W, 1e-9)) << bent.torque_W.transpose();
 }
 
 TEST(ContactForceTest, DampingResistsTheWayInAndNeverPulls) {
@@ -136,7 +163,7 @@ TEST(ContactForceTest, AllocatesNothing) {
   const PlaneSet set = planeSet(planes);
   const ToolBalls tool = ballTool(0.01);
   const Allocations allocations;
-  EXPECT_GT(finder.find(set, tool, Isometry3d::Identity(), {}, kLaw).force_W.z(), 0.0);
+  EXPECT_GT(finder.find(set, tool, {Isometry3d::Identity()}, {}, kLaw).force_W.z(), 0.0);
   EXPECT_EQ(allocations.count(), 0U) << allocations.stacks();
 }
 

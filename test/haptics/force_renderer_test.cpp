@@ -259,7 +259,7 @@ ForcePermission decide(const Change& change) {
   const std::shared_ptr<PlaneSet> planes = freshPlanes();
   MotionInputs inputs = fresh(planes);
   change(inputs, *planes);
-  return decideForce(inputs, {}, kNow, {});
+  return decideForce({{}, inputs}, kNow, {});
 }
 
 TEST(ForcePermissionTest, FreshInputsOfAnyKnownLevelLetTheWholeForceThrough) {
@@ -279,13 +279,29 @@ TEST(ForcePermissionTest, ASilentPosePlanesOrDeviceFadeTheForceOutFrom50To70Mill
     EXPECT_NEAR(pose.gain, gain, 1e-9) << silent;
     const ForcePermission planes = decide([&](auto& /*inputs*/, auto& set) { set.timestamps = silent_since; });
     EXPECT_NEAR(planes.gain, gain, 1e-9) << silent;
-    const ForcePermission device = decideForce(fresh(freshPlanes()), silent_since, kNow, {});
+    const ForcePermission device = decideForce({silent_since, fresh(freshPlanes())}, kNow, {});
     EXPECT_NEAR(device.gain, gain, 1e-9) << silent;
     if (silent == 50) continue;
     EXPECT_EQ(device.cause, PermissionCause::kDeviceSilent);
     EXPECT_EQ(pose.cause, PermissionCause::kPoseSilent);
     EXPECT_EQ(planes.cause, PermissionCause::kPlanesSilent);
   }
+}
+
+TEST(ForcePermissionTest, AToolThatJointsMoveHasAForceOnlyWhileTheyTellWhereItIs) {
+  const std::shared_ptr<PlaneSet> planes = freshPlanes();
+  planes->joints = {"elbow"};
+  planes->positions = {0.0};
+  ForceInputs inputs{{}, fresh(planes)};
+  EXPECT_EQ(decideForce(inputs, kNow, {}).gain, 0.0);
+  EXPECT_EQ(decideForce(inputs, kNow, {}).cause, PermissionCause::kMovingJoints);
+  inputs.placed = PlacedByJoints{nullptr, ago({})};
+  EXPECT_EQ(decideForce(inputs, kNow, {}).gain, 1.0);
+  inputs.placed->timestamps.stamp = ago(milliseconds(151)).stamp;
+  EXPECT_EQ(decideForce(inputs, kNow, {}).cause, PermissionCause::kOldJoints);
+  inputs.placed->timestamps = ago(milliseconds(60));
+  EXPECT_NEAR(decideForce(inputs, kNow, {}).gain, 0.5, 1e-9);
+  EXPECT_EQ(decideForce(inputs, kNow, {}).cause, PermissionCause::kJointsSilent);
 }
 
 TEST(ForcePermissionTest, WhatNoCameraSeesTakesNothingFromTheForceOfWhatIsKnown) {

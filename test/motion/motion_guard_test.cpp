@@ -240,6 +240,21 @@ TEST(MotionGuardTest, StopsWithoutAWarningPlanesAPoseATool) {
   stops(inputs, PermissionCause::kNoTool);
 }
 
+TEST(MotionGuardTest, PlanesOfAToolThatJointsMoveLetNothingThroughOfACommandOfARigidOne) {
+  MotionGuard guard(withEscape());
+  MotionInputs inputs = inputsAt(1000, 0.1);
+  PlaneSet planes = *inputs.planes;
+  planes.joints = {"elbow"};
+  planes.positions = {0.0};
+  inputs.planes = std::make_shared<const PlaneSet>(planes);
+  for (const WarningLevel level : {WarningLevel::kClear, WarningLevel::kUnknown}) {
+    inputs.warning->level = level;
+    const GuardedMotion motion = guard.guard(inputs, moving({0.1, 0.0, 0.0}, 1000), at(1000));
+    EXPECT_EQ(std::string(textOf(motion.decision.cause)), textOf(PermissionCause::kMovingJoints));
+    EXPECT_TRUE(isZero(motion.twist_W));
+  }
+}
+
 TEST(MotionGuardTest, EscapesSlowlyAndOnlyAway) {
   MotionGuard guard(withEscape());
   MotionInputs inputs = inputsAt(1000, 0.01);
@@ -361,7 +376,8 @@ TEST(MotionGuardTest, NoOutputClosesFasterThanItMayAtTheNewestAndTheExpectedPose
     for (const Isometry3d& pose_WT : {X_WT, drawn.command.rest_WT.value_or(X_WT)}) {
       for (const FacingBall& ball : facing(drawn, pose_WT)) {
         const double tolerance = 2e-6 * fastestPoint(command_W, limits.tool_radius) + 1e-12;
-        EXPECT_LE(closingSpeed(ball, motion.twist_W), closingLimit(ball, command_W.w_W.norm(), limits) + tolerance);
+        EXPECT_LE(closingSpeed(ball, motion.twist_W),
+                  closingLimit(ball, arcAcceleration(command_W, limits.tool_radius), limits) + tolerance);
       }
     }
     EXPECT_LE(motion.twist_W.v_W.norm(), command_W.v_W.norm() * (1.0 + 1e-12));

@@ -69,9 +69,9 @@ TEST(MotionInFlightTest, VelocitiesAtTheSameMomentDoNotAddUp) {
 }
 
 // A robot that follows commands after a dead time and with a first-order lag, before a wall at x = 0.
-class Robot {
+class DelayedRobot {
  public:
-  Robot(double x, int dead_time_ms, int lag_ms)
+  DelayedRobot(double x, int dead_time_ms, int lag_ms)
       : x_(x), lag_ms_(lag_ms), sent_(static_cast<size_t>(dead_time_ms), 0.0) {}
 
   double x() const { return x_; }
@@ -111,7 +111,7 @@ double nearest(double x, const Delays& delays, double deceleration, bool count_i
   const SeparatingPlane wall{0, Vector3d::UnitX(), Vector3d::Zero(), 0.0, 0.0};
   VelocityLimiter limiter(2);
   MotionInFlight in_flight;
-  Robot robot(x, dead_time_ms, lag_ms);
+  DelayedRobot robot(x, dead_time_ms, lag_ms);
   Twist output;
   double least = x;
   for (int ms = 0; ms < 4000; ++ms) {

@@ -196,7 +196,7 @@ TEST_F(EscapeTest, NeedsAPoseThatIsYoungOnBothClocks) {
 }
 
 TEST(PermissionCauseTest, EveryCauseHasWords) {
-  for (int cause = 0; cause <= static_cast<int>(PermissionCause::kNoTool); ++cause) {
+  for (int cause = 0; cause <= static_cast<int>(PermissionCause::kDeviceSilent); ++cause) {
     EXPECT_GT(std::string(textOf(static_cast<PermissionCause>(cause))).size(), 5U) << cause;
   }
 }

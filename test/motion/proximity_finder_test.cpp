@@ -3,45 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <set>
 
 #include "allocations.h"
-#include "common/floating_point.h"
+#include "motion/proximity_truth.h"
 #include "motion/random_scenes.h"
-#include "scenes.h"
-#include "sweep_guard/geometry/separation.h"
 
 namespace sweep_guard_core {
 namespace {
-
-using Eigen::Isometry3d;
-using Eigen::Vector3d;
-using Corners = std::array<Vector3d, 3>;
-using namespace std::chrono_literals;
-
-const std::string kFrame = "mesh";
-
-std::shared_ptr<const Workpiece> workpieceOf(const TriangleMesh& mesh_M, const std::string& id = "liver") {
-  return std::make_shared<const Workpiece>(Workpiece{id, 1, Time(100s), SteadyTime(100s), kFrame, mesh_M});
-}
-
-std::shared_ptr<const Workpiece> updated(const Workpiece& before, std::vector<float> positions_M, Duration later) {
-  Workpiece next = before;
-  next.mesh_M.deform(positions_M);
-  next.stamp += later;
-  next.received += later;
-  countUpdate(before, next);
-  return std::make_shared<const Workpiece>(std::move(next));
-}
-
-PoseWithFrames poseAt(const Isometry3d& X_WT, Time stamp = Time(100s),
-                      const Isometry3d& X_WM = Isometry3d::Identity()) {
-  return {stamp, SteadyTime(100s), X_WT, {{kFrame, X_WM}}};
-}
 
 // A square of side 0.2 m in z = 0, of 2 * cells^2 triangles.
 TriangleMesh square(std::uint32_t cells, const Eigen::Matrix3d& R_MS = Eigen::Matrix3d::Identity()) {
@@ -60,143 +32,6 @@ TriangleMesh square(std::uint32_t cells, const Eigen::Matrix3d& R_MS = Eigen::Ma
     }
   }
   return TriangleMesh(vertices, triangles);
-}
-
-Tool toolOfAllShapes(Random& random) {
-  std::vector<Vector3d> points;
-  for (int i = 0; i < 12; ++i) points.push_back(0.02 * random.direction());
-  const auto placed = [&](const ConvexShape& shape) {
-    return ConvexPiece{"link", shape.placed(random.pose(random.inBox({0.04, 0.04, 0.04})))};
-  };
-  return Tool(std::vector<ConvexPiece>{placed(ConvexShape::cylinder(0.005, 0.05)), placed(ConvexShape::sphere(0.01)),
-                                       placed(ConvexShape::box({0.004, 0.01, 0.02})),
-                                       placed(ConvexShape::hull(points).padded(0.002))});
-}
-
-// Sheets, chains and single triangles in the neighborhood.
-TriangleMesh randomMesh(Random& random) {
-  std::vector<Vector3d> vertices;
-  std::vector<Triangle> triangles;
-  const int count = 1 + random.below(400);
-  const double size = random.logUniform(0.001, 0.05);
-  for (int i = 0; i < count; ++i) {
-    const Vector3d place = random.uniform(0.0, 0.2) * random.direction();
-    const auto first = static_cast<std::uint32_t>(vertices.size());
-    for (int corner = 0; corner < 3; ++corner) vertices.push_back(place + size * random.direction());
-    triangles.push_back({first, first + 1, first + 2});
-  }
-  return TriangleMesh(vertices, triangles);
-}
-
-// What find() has to bound, triangle by triangle.
-class BruteForce {
- public:
-  BruteForce(const Tool& tool, const PoseWithFrames& pose, const Workpiece& workpiece,
-             const Workpiece* before = nullptr, const Isometry3d& X_WM_before = Isometry3d::Identity(),
-             double frame_interval = 1.0)
-      : tool_(tool), pose_(pose), workpiece_(workpiece) {
-    const Isometry3d& X_WM = pose.X_WM.at(kFrame);
-    for (size_t i = 0; i < workpiece.mesh_M.vertexCount(); ++i) {
-      const Vector3d p_M = workpiece.mesh_M.vertex(i);
-      positions_W_.emplace_back(X_WM * p_M);
-      velocities_W_.emplace_back((X_WM * p_M - X_WM_before * p_M) / frame_interval);
-      if (before == nullptr) continue;
-      velocities_W_.back() +=
-          X_WM.linear() * (p_M - before->mesh_M.vertex(i)) / toSeconds(workpiece.stamp - before->stamp);
-    }
-  }
-
-  size_t triangles() const { return workpiece_.mesh_M.triangles().size(); }
-
-  Corners cornersOf(size_t triangle) const {
-    const Triangle& vertices = workpiece_.mesh_M.triangles()[triangle];
-    return {positions_W_[vertices[0]], positions_W_[vertices[1]], positions_W_[vertices[2]]};
-  }
-
-  double distance(size_t piece, size_t triangle) const {
-    Corners corners_T = cornersOf(triangle);
-    for (Vector3d& p : corners_T) p = pose_.X_WT.inverse() * p;
-    const Separation apart = separation(tool_.pieces()[piece].shape_T, PointHull(corners_T));
-    return (apart.on_tool - apart.on_obstacle).norm();
-  }
-
-  bool standsFor(const ProximityPlane& each, size_t piece, size_t triangle) const {
-    const SeparatingPlane& plane = each.plane;
-    if (plane.piece != piece || each.workpiece.get() != &workpiece_) return false;
-    const Triangle& vertices = workpiece_.mesh_M.triangles()[triangle];
-    return std::all_of(vertices.begin(), vertices.end(), [&](std::uint32_t i) {
-      return plane.normal_W.dot(positions_W_[i] - plane.point_W) <= 1e-9 &&
-             plane.normal_W.dot(velocities_W_[i]) <= plane.surface_speed + 1e-9;
-    });
-  }
-
-  double speed(size_t triangle) const {
-    double most = 0.0;
-    for (const std::uint32_t i : workpiece_.mesh_M.triangles()[triangle])
-      most = std::max(most, velocities_W_[i].norm());
-    return most;
-  }
-
-  // Of the piece before the plane.
-  double gap(const SeparatingPlane& plane) const {
-    const Vector3d n_T = pose_.X_WT.linear().transpose() * plane.normal_W;
-    const double least_T = -tool_.pieces()[plane.piece].shape_T.support(-n_T);
-    return least_T + plane.normal_W.dot(pose_.X_WT.translation() - plane.point_W);
-  }
-
- private:
-  const Tool& tool_;
-  const PoseWithFrames& pose_;
-  const Workpiece& workpiece_;
-  std::vector<Vector3d> positions_W_;
-  std::vector<Vector3d> velocities_W_;
-};
-
-// How often each case was met: a test that never meets one proves nothing about it.
-struct Met {
-  size_t behind = 0;
-  size_t left_over = 0;
-  size_t contacts = 0;
-  size_t full = 0;
-};
-
-void expectAllBounded(const BruteForce& truth, const Tool& tool, double reach, const Proximity& found, Met& met) {
-  ASSERT_LE(found.planes.size(), ProximityFinder::kMaxPlanes);
-  if (found.planes.size() == ProximityFinder::kMaxPlanes) ++met.full;
-  for (size_t piece = 0; piece < tool.pieces().size(); ++piece) {
-    for (size_t triangle = 0; triangle < truth.triangles(); ++triangle) {
-      const auto stands = [&](const ProximityPlane& plane) { return truth.standsFor(plane, piece, triangle); };
-      if (std::any_of(found.planes.begin(), found.planes.end(), stands)) {
-        ++met.behind;
-        continue;
-      }
-      ++met.left_over;
-      const double distance = truth.distance(piece, triangle);
-      ASSERT_LE(found.uncovered.distance, distance + 1e-9) << "piece " << piece << ", triangle " << triangle;
-      ASSERT_GE(found.uncovered.speed, truth.speed(triangle) - 1e-9);
-      if (found.planes.size() < ProximityFinder::kMaxPlanes) {
-        ASSERT_GE(distance, reach - 1e-9);
-      }
-    }
-  }
-}
-
-void expectPlanesInFront(const BruteForce& truth, const Proximity& found, Met& met) {
-  double before = -kInfinity;
-  for (const ProximityPlane& each : found.planes) {
-    const SeparatingPlane& plane = each.plane;
-    ASSERT_NEAR(plane.normal_W.norm(), 1.0, 1e-12);
-    ASSERT_NEAR(truth.gap(plane), plane.gap, 1e-9);
-    ASSERT_TRUE(truth.standsFor(each, plane.piece, each.triangle));
-    const double distance = truth.distance(plane.piece, each.triangle);
-    ASSERT_LE(plane.gap, distance);
-    if (distance > 1e-4) {
-      ASSERT_GE(plane.gap, 0.949 * distance - 1e-5);
-    }
-    ASSERT_GE(plane.gap, before);
-    before = plane.gap;
-    if (each.contact) ++met.contacts;
-  }
 }
 
 TEST(ProximityFinderTest, BoundsEveryTriangleAndEveryVertexSpeed) {
@@ -225,10 +60,10 @@ TEST(ProximityFinderTest, BoundsEveryTriangleAndEveryVertexSpeed) {
     const PoseWithFrames before =
         poseAt(X_WM_before * random.pose(random.inBox({0.1, 0.1, 0.1})), Time(100s), X_WM_before);
     const PoseWithFrames pose = poseAt(X_WM * random.pose(random.inBox({0.1, 0.1, 0.1})), Time(100s + 10ms), X_WM);
-    finder.find({tool, before, {first}, reach}, found);
-    finder.find({tool, pose, {workpiece}, reach}, found);
-    const BruteForce truth(tool, pose, *workpiece, workpiece == first ? nullptr : first.get(), X_WM_before, 0.01);
-    expectAllBounded(truth, tool, reach, found, met);
+    finder.find({{&tool}, before, {first}, reach}, found);
+    finder.find({{&tool}, pose, {workpiece}, reach}, found);
+    const BruteForce truth({&tool}, pose, *workpiece, workpiece == first ? nullptr : first.get(), X_WM_before, 0.01);
+    expectAllBounded(truth, reach, found, met);
     expectPlanesInFront(truth, found, met);
     if (HasFatalFailure()) return;
   }
@@ -251,9 +86,9 @@ TEST(ProximityFinderTest, WhatMoreThan64PlanesWouldNeedBoundsTheSpeedAsAWhole) {
     const PoseWithFrames pose = poseAt(random.pose(random.inBox({0.05, 0.05, 0.05})));
     ProximityFinder finder;
     Proximity found;
-    finder.find({tool, pose, {workpiece}, 0.3}, found);
-    const BruteForce truth(tool, pose, *workpiece);
-    expectAllBounded(truth, tool, 0.3, found, met);
+    finder.find({{&tool}, pose, {workpiece}, 0.3}, found);
+    const BruteForce truth({&tool}, pose, *workpiece);
+    expectAllBounded(truth, 0.3, found, met);
     expectPlanesInFront(truth, found, met);
     if (HasFatalFailure()) return;
   }
@@ -269,9 +104,9 @@ TEST(ProximityFinderTest, InsideOfAClosedMeshTheWallsAreBoundedAllAround) {
     Random random(seed);
     const Tool tool(ConvexShape::cylinder(0.004, 0.03));
     const PoseWithFrames pose = poseAt(random.pose(random.inBox({0.05, 0.05, 0.05})));
-    finder.find({tool, pose, {workpiece}, 0.2}, found);
-    const BruteForce truth(tool, pose, *workpiece);
-    expectAllBounded(truth, tool, 0.2, found, met);
+    finder.find({{&tool}, pose, {workpiece}, 0.2}, found);
+    const BruteForce truth({&tool}, pose, *workpiece);
+    expectAllBounded(truth, 0.2, found, met);
     expectPlanesInFront(truth, found, met);
     if (HasFatalFailure()) return;
     ASSERT_GT(found.planes.size(), 6U);
@@ -279,6 +114,7 @@ TEST(ProximityFinderTest, InsideOfAClosedMeshTheWallsAreBoundedAllAround) {
 }
 
 TEST(ProximityFinderTest, OnePlaneStandsForAFlatWallHoweverItIsTurned) {
+  const Tool ball(ConvexShape::sphere(0.01));
   Random random(7);
   for (int i = 0; i < 20; ++i) {
     const Eigen::Matrix3d R_MS = random.rotation();
@@ -287,7 +123,7 @@ TEST(ProximityFinderTest, OnePlaneStandsForAFlatWallHoweverItIsTurned) {
     X_WT.translation() = R_MS * Vector3d(0.01, 0.02, 0.03);
     ProximityFinder finder;
     Proximity found;
-    finder.find({Tool(ConvexShape::sphere(0.01)), poseAt(X_WT), {workpieceOf(square(60, R_MS))}, 0.1}, found);
+    finder.find({{&ball}, poseAt(X_WT), {workpieceOf(square(60, R_MS))}, 0.1}, found);
     ASSERT_EQ(found.planes.size(), 1U);
     EXPECT_NEAR(found.planes[0].plane.gap, 0.95 * 0.02, 1e-5);
     EXPECT_GT(found.planes[0].plane.normal_W.dot(R_MS.col(2)), 0.9999);
@@ -301,11 +137,11 @@ TEST(ProximityFinderTest, WhatIsBeyondTheReachBoundsTheSpeedAsAWhole) {
   const Tool tool(ConvexShape::sphere(0.01));
   ProximityFinder finder;
   Proximity found;
-  finder.find({tool, poseAt(placedAt(0.0, 0.0, 0.1101)), {workpiece}, 0.1}, found);
+  finder.find({{&tool}, poseAt(placedAt(0.0, 0.0, 0.1101)), {workpiece}, 0.1}, found);
   EXPECT_TRUE(found.planes.empty());
   EXPECT_LE(found.uncovered.distance, 0.1001);
   EXPECT_GE(found.uncovered.distance, 0.1);
-  finder.find({tool, poseAt(placedAt(0.0, 0.0, 0.1099)), {workpiece}, 0.1}, found);
+  finder.find({{&tool}, poseAt(placedAt(0.0, 0.0, 0.1099)), {workpiece}, 0.1}, found);
   EXPECT_EQ(found.planes.size(), 1U);
 }
 
@@ -316,18 +152,19 @@ TEST(ProximityFinderTest, APaddedWorkpieceCountsAsNearerByItsPadding) {
   ProximityFinder finder;
   Proximity found;
   for (const double distance : {0.03, 0.119}) {
-    finder.find({tool, poseAt(placedAt(0.0, 0.0, 0.01 + distance)), {workpieceOf(padded)}, 0.1}, found);
+    finder.find({{&tool}, poseAt(placedAt(0.0, 0.0, 0.01 + distance)), {workpieceOf(padded)}, 0.1}, found);
     ASSERT_EQ(found.planes.size(), 1U) << distance;
     EXPECT_LE(found.planes[0].plane.gap, distance - 0.02);
     EXPECT_GE(found.planes[0].plane.point_W.z(), 0.02);
   }
-  finder.find({tool, poseAt(placedAt(0.0, 0.0, 0.13 + 0.0001)), {workpieceOf(padded)}, 0.1}, found);
+  finder.find({{&tool}, poseAt(placedAt(0.0, 0.0, 0.13 + 0.0001)), {workpieceOf(padded)}, 0.1}, found);
   EXPECT_TRUE(found.planes.empty());
   EXPECT_NEAR(found.uncovered.distance, 0.1, 1e-3);
 }
 
 // All of what it stands for is padded, not only the triangle that it was made for.
 TEST(ProximityFinderTest, APlaneOfAPaddedWorkpieceLeavesItsPaddingBeforeEachTriangle) {
+  const Tool ball(ConvexShape::sphere(0.01));
   Random random(5);
   ProximityFinder finder;
   Proximity found;
@@ -335,7 +172,7 @@ TEST(ProximityFinderTest, APlaneOfAPaddedWorkpieceLeavesItsPaddingBeforeEachTria
     TriangleMesh padded = square(10, random.rotation());
     padded.pad(0.02);
     const auto workpiece = workpieceOf(padded);
-    finder.find({Tool(ConvexShape::sphere(0.01)), poseAt(placedAt(0.0, 0.0, 0.16)), {workpiece}, 0.2}, found);
+    finder.find({{&ball}, poseAt(placedAt(0.0, 0.0, 0.16)), {workpiece}, 0.2}, found);
     for (size_t vertex = 0; vertex < padded.vertexCount(); ++vertex) {
       const auto clears = [&](const ProximityPlane& each) {
         return each.plane.normal_W.dot(padded.vertex(vertex) - each.plane.point_W) <= -0.02;
@@ -347,18 +184,20 @@ TEST(ProximityFinderTest, APlaneOfAPaddedWorkpieceLeavesItsPaddingBeforeEachTria
 }
 
 TEST(ProximityFinderTest, WithoutWorkpieceThereIsNothing) {
+  const Tool ball(ConvexShape::sphere(0.01));
   ProximityFinder finder;
   Proximity found;
-  finder.find({Tool(ConvexShape::sphere(0.01)), poseAt(placedAt(0.0, 0.0, 0.0)), {}, 0.1}, found);
+  finder.find({{&ball}, poseAt(placedAt(0.0, 0.0, 0.0)), {}, 0.1}, found);
   EXPECT_TRUE(found.planes.empty());
   EXPECT_EQ(found.uncovered.distance, kInfinity);
 }
 
 TEST(ProximityFinderTest, AWorkpieceWithoutItsFrameIsNamed) {
+  const Tool ball(ConvexShape::sphere(0.01));
   ProximityFinder finder;
   Proximity found;
   const auto workpiece = workpieceOf(square(2));
-  finder.find({Tool(ConvexShape::sphere(0.01)), {Time(1s), {}, placedAt(0.0, 0.0, 0.02), {}}, {workpiece}, 0.1}, found);
+  finder.find({{&ball}, {Time(1s), {}, placedAt(0.0, 0.0, 0.02), {}}, {workpiece}, 0.1}, found);
   ASSERT_EQ(found.unplaced.size(), 1U);
   EXPECT_EQ(found.unplaced[0], workpiece);
 }
@@ -373,7 +212,7 @@ TEST(ProximityFinderTest, TheSpeedIsThatOfTheTwoLatestDeformationsUntilTheNext) 
   ProximityFinder finder;
   Proximity found;
   const auto speed = [&](const auto& workpiece) {
-    finder.find({tool, poseAt(placedAt(0.0, 0.0, 0.05)), {workpiece}, 0.1}, found);
+    finder.find({{&tool}, poseAt(placedAt(0.0, 0.0, 0.05)), {workpiece}, 0.1}, found);
     return found.planes.at(0).plane.surface_speed;
   };
   EXPECT_EQ(speed(first), 0.0);
@@ -393,8 +232,8 @@ TEST(ProximityFinderTest, APartThatMovesElsewhereDoesNotQuickenAPlane) {
   const Tool tool(ConvexShape::sphere(0.01));
   ProximityFinder finder;
   Proximity found;
-  finder.find({tool, poseAt(placedAt(-0.05, 0.0, 0.02)), {first}, 0.05}, found);
-  finder.find({tool, poseAt(placedAt(-0.05, 0.0, 0.02)), {second}, 0.05}, found);
+  finder.find({{&tool}, poseAt(placedAt(-0.05, 0.0, 0.02)), {first}, 0.05}, found);
+  finder.find({{&tool}, poseAt(placedAt(-0.05, 0.0, 0.02)), {second}, 0.05}, found);
   ASSERT_FALSE(found.planes.empty());
   EXPECT_NEAR(found.planes[0].plane.surface_speed, 0.0, 1e-6);
 }
@@ -409,7 +248,7 @@ TEST(ProximityFinderTest, FromAContactTheToolCanRetreat) {
   for (int i = 0; i < 200; ++i) {
     Isometry3d X_WT = placedAt(random.uniform(-0.05, 0.05), random.uniform(-0.05, 0.05), -random.uniform(1e-5, 0.01));
     X_WT.rotate(Eigen::AngleAxisd(random.uniform(0.0, 0.5), Vector3d::UnitX()));
-    finder.find({tool, poseAt(X_WT), {workpiece}, 0.1}, found);
+    finder.find({{&tool}, poseAt(X_WT), {workpiece}, 0.1}, found);
     ASSERT_FALSE(found.planes.empty());
     ASSERT_LT(found.planes[0].plane.gap, 0.0);
     const Vector3d out_W = X_WT.linear().col(2);
@@ -428,7 +267,7 @@ TEST(ProximityFinderTest, APlaneInContactDoesNotStandForWhatTheToolMayStillMeet)
   const Tool tool(ConvexShape::cylinder(0.002, 0.05).placed(placedAt(0.0, 0.0, 0.05)));
   ProximityFinder finder;
   Proximity found;
-  finder.find({tool, poseAt(placedAt(0.0, 0.0, -0.01)), {workpiece}, 0.1}, found);
+  finder.find({{&tool}, poseAt(placedAt(0.0, 0.0, -0.01)), {workpiece}, 0.1}, found);
   ASSERT_EQ(found.planes.size(), 2U);
   EXPECT_NEAR(found.planes[0].plane.gap, -0.01, 1e-6);
   EXPECT_EQ(found.planes[1].triangle, 1U);
@@ -448,7 +287,7 @@ TEST(ProximityFinderTest, AContactKeepsTheNormalOfTheSweep) {
   ProximityFinder finder;
   Proximity found;
   const PoseWithFrames pose = poseAt(placedAt(0.0, 0.0, -0.002));
-  finder.find({tool, pose, {workpiece}, 0.1, &report}, found);
+  finder.find({{&tool}, pose, {workpiece}, 0.1, &report}, found);
   ASSERT_FALSE(found.planes.empty());
   EXPECT_NEAR(found.planes[0].plane.normal_W.dot(first_touched), 1.0, 1e-12);
 }
@@ -460,9 +299,9 @@ TEST(ProximityFinderTest, ResetForgetsSpeeds) {
   const Tool tool(ConvexShape::sphere(0.01));
   ProximityFinder finder;
   Proximity found;
-  finder.find({tool, poseAt(placedAt(0.0, 0.0, 0.05)), {first}, 0.1}, found);
+  finder.find({{&tool}, poseAt(placedAt(0.0, 0.0, 0.05)), {first}, 0.1}, found);
   finder.reset();
-  finder.find({tool, poseAt(placedAt(0.0, 0.0, 0.05)), {updated(*first, raised, 20ms)}, 0.1}, found);
+  finder.find({{&tool}, poseAt(placedAt(0.0, 0.0, 0.05)), {updated(*first, raised, 20ms)}, 0.1}, found);
   EXPECT_EQ(found.planes.at(0).plane.surface_speed, 0.0);
 }
 
@@ -478,7 +317,7 @@ TEST(ProximityFinderTest, AllocatesNothing) {
   std::vector<PoseWithFrames> poses;
   for (int i = 0; i < 50; ++i) poses.push_back(poseAt(placedAt(0.06 + 0.002 * i, 0.01, 0.0), Time(100s + i * 10ms)));
   const auto run = [&] {
-    for (size_t i = 0; i < poses.size(); ++i) finder.find({tool, poses[i], i % 2 == 0 ? first : second, 0.1}, found);
+    for (size_t i = 0; i < poses.size(); ++i) finder.find({{&tool}, poses[i], i % 2 == 0 ? first : second, 0.1}, found);
   };
   run();
   const Allocations made;
@@ -515,7 +354,7 @@ class IntendedProximityTest : public ::testing::Test {
     Isometry3d X_WT(Eigen::AngleAxisd(M_PI, Vector3d::UnitX()));
     X_WT.translation() = Vector3d(x, 0.0, height);
     Proximity found;
-    finder_.find({tool_, poseAt(X_WT), {plate_}, 0.1, nullptr, &intentions_}, found);
+    finder_.find({{&tool_}, poseAt(X_WT), {plate_}, 0.1, nullptr, &intentions_}, found);
     return found;
   }
 
@@ -597,7 +436,7 @@ TEST_F(IntendedProximityTest, ALinkThatMayTouchHasNoPlanes) {
     Isometry3d X_WT(Eigen::AngleAxisd(M_PI, Vector3d::UnitX()));
     X_WT.translation() = Vector3d(0.0, 0.0, 0.001);
     Proximity found;
-    finder_.find({tool_, poseAt(X_WT), {plate_}, 0.1, nullptr, nullptr, &allowed}, found);
+    finder_.find({{&tool_}, poseAt(X_WT), {plate_}, 0.1, nullptr, nullptr, &allowed}, found);
     std::set<size_t> with_planes;
     for (const ProximityPlane& each : found.planes) with_planes.insert(each.plane.piece);
     return std::pair(with_planes, found.uncovered.distance);
@@ -621,7 +460,7 @@ TEST_F(IntendedProximityTest, TheSpeedOfWhatMayBeTouchedCountsForNothing) {
       pose.X_WM = {{kFrame, Isometry3d(Eigen::Translation3d(toSeconds(t - 100s), 0.0, -0.01))}, {"still", far}};
       Workpiece still = *table;
       still.frame = "still";
-      finder.find({tool_, pose, {plate_, std::make_shared<const Workpiece>(still)}, 0.1, nullptr, nullptr, &allowed},
+      finder.find({{&tool_}, pose, {plate_, std::make_shared<const Workpiece>(still)}, 0.1, nullptr, nullptr, &allowed},
                   found);
     }
     return found.uncovered.speed;

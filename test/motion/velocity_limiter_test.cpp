@@ -61,7 +61,7 @@ TEST(VelocityLimiterTest, ATurnIsPaidUntilTheBallIsAtRest) {
     const MotionScene scene = random.scene();
     const double turn_rate = scene.command_W.w_W.norm();
     for (const FacingBall& ball : scene.facing) {
-      const double own = closingLimit(ball, turn_rate, scene.limits);
+      const double own = closingLimit(ball, arcAcceleration(scene.command_W, scene.limits.tool_radius), scene.limits);
       if (own == 0.0) continue;
       const double distance = ball.gap - scene.limits.standoff;
       EXPECT_NEAR(stoppingDistance(own + std::max(0.0, ball.surface_speed), turn_rate, scene.limits), distance,
@@ -104,7 +104,7 @@ TEST(VelocityLimiterTest, BothEndsOfTheToolAreLimited) {
   const std::vector<FacingBall> facing = {floorAt(0.01, {0.0, 0.0, 0.0}), floorAt(0.04, {-0.3, 0.0, 0.0})};
   const Twist slowed = limit({Vector3d::Zero(), {0.0, -1.0, 0.0}}, facing);
   EXPECT_GT(slowed.w_W.norm(), 0.0);
-  EXPECT_NEAR(closingSpeed(facing[1], slowed), closingLimit(facing[1], 1.0, kLimits), 1e-12);
+  EXPECT_NEAR(closingSpeed(facing[1], slowed), closingLimit(facing[1], kLimits.tool_radius, kLimits), 1e-12);
 }
 
 TEST(VelocityLimiterTest, ASurfaceThatComesLeavesZeroAndRetreat) {
@@ -262,7 +262,7 @@ TEST(VelocityLimiterTest, OppositeParallelAndRepeatedPlanesLeaveTheMotionBetween
   const std::vector<FacingBall> facing = {wall(1.0), wall(-1.0), wall(1.0), wall(-1.0), floorAt(0.04), floorAt(0.04)};
   const Twist output_W = limit({{0.5, 0.3, -0.4}, {0.0, 0.0, 1.0}}, facing);
   EXPECT_TRUE(output_W.v_W.isApprox(Vector3d(0.0, 0.3, output_W.v_W.z()), 1e-12));
-  EXPECT_NEAR(-output_W.v_W.z(), closingLimit(facing[4], 1.0, kLimits), 1e-12);
+  EXPECT_NEAR(-output_W.v_W.z(), closingLimit(facing[4], kLimits.tool_radius, kLimits), 1e-12);
   EXPECT_EQ(output_W.w_W, Vector3d::UnitZ());
 }
 

@@ -36,10 +36,8 @@ class Stream {
   }
 
  private:
-  static void stamp(geometry_msgs::Twist& /*message*/) {}
-  template <typename Stamped>
-  static void stamp(Stamped& message) {
-    message.header.stamp = ros::Time::now();
+  static void stamp(Msg& message) {
+    if constexpr (ros::message_traits::HasHeader<Msg>::value) message.header.stamp = ros::Time::now();
   }
 
   void publish() {

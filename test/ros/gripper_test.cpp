@@ -4,6 +4,10 @@
 #include <sweep_guard/Attach.h>
 #include <sweep_guard/Interaction.h>
 
+#include <cmath>
+#include <limits>
+#include <map>
+
 #include "cube.h"
 #include "guard_probe.h"
 #include "node_fixture.h"
@@ -13,6 +17,8 @@ namespace sweep_guard_ros {
 namespace {
 
 using sweep_guard::Contacts;
+using sweep_guard::Proximity;
+using sweep_guard::ToolBalls;
 using sweep_guard::Warning;
 
 class GripperTest : public testing::Test {
@@ -20,8 +26,7 @@ class GripperTest : public testing::Test {
   void SetUp() override {
     probe().place(squareAt("square", {0.22, 0.02, 0.0}, probe().time(), 0.003));
     step(0.5, 0.04);
-    while (!isClear(step(0.0, 0.04))) {
-    }
+    restAtFullWidth();
   }
 
   // The forearm along x at this height, level with the fingers that it carries.
@@ -47,6 +52,39 @@ class GripperTest : public testing::Test {
     publishJaw(jaw);
     return probe().awaitWarning([](const Warning&) { return true; });
   }
+
+  // Poses that are swept before the guard knows a subscriber have no message.
+  template <typename Message>
+  static Message messageAt(const TopicListener<Message>& listener, double jaw) {
+    step(0.0, jaw);
+    while (listener.all().empty()) step(0.0, jaw);
+    const ros::Time stamp = probe().time();
+    return listener.awaitNewest([&](const auto& message) { return message.header.stamp >= stamp; });
+  }
+
+  // A cube below the left finger, and a plate beside the cube.
+  static void placePayload() {
+    probe().place(cubeAt("payload", {0.22, 0.045, -0.025}, probe().time(), 0.005));
+    probe().place(squareAt("plate", {0.22, 0.02, -0.025}, probe().time(), 0.003));
+    restAtFullWidth();
+  }
+  static void restAtFullWidth() {
+    while (!isClear(step(0.0, 0.04))) {
+    }
+  }
+  static void attachPayload(bool attach) {
+    sweep_guard::Attach attached;
+    attached.request.mesh_id = "payload";
+    attached.request.link = attach ? "left" : "";
+    attached.request.attach = attach;
+    step(0.0, 0.04);
+    ASSERT_TRUE(ros::service::call("/sweep_guard/attach", attached));
+    ASSERT_TRUE(attached.response.success) << attached.response.message;
+  }
+  static void removePayload() {
+    attachPayload(false);
+    for (const char* const id : {"payload", "plate"}) probe().remove(id);
+  }
 };
 
 TEST_F(GripperTest, TheFingerThatClosesIsNamedWhileTheForearmRests) {
@@ -64,15 +102,8 @@ TEST_F(GripperTest, TheFingerThatClosesIsNamedWhileTheForearmRests) {
 // The square faces up: what it presses on is the lower half of the finger.
 TEST_F(GripperTest, TheForceOnAFingerIsAtTheToolFrame) {
   const TopicListener<sweep_guard::Interaction> forces("interaction");
-  const auto forceAt = [&](double jaw) {
-    step(0.0, jaw);
-    while (forces.all().empty())
-      step(0.0, jaw);  // poses that are swept before the guard knows its subscriber have none
-    const ros::Time stamp = probe().time();
-    return forces.awaitNewest([&](const auto& force) { return force.header.stamp >= stamp; });
-  };
-  EXPECT_TRUE(forceAt(0.04).objects.empty());
-  const sweep_guard::Interaction force = forceAt(0.015);
+  EXPECT_TRUE(messageAt(forces, 0.04).objects.empty());
+  const sweep_guard::Interaction force = messageAt(forces, 0.015);
   EXPECT_TRUE(force.valid);
   ASSERT_EQ(force.objects.size(), 1U);
   EXPECT_EQ(force.objects[0].mesh_id, "square");
@@ -87,18 +118,9 @@ TEST_F(GripperTest, TheForceOnAFingerIsAtTheToolFrame) {
 
 // A plate below the fingers is in the way of the cube alone.
 TEST_F(GripperTest, WhatAFingerHoldsMovesWithIt) {
-  probe().place(cubeAt("payload", {0.22, 0.045, -0.025}, probe().time(), 0.005));
-  probe().place(squareAt("plate", {0.22, 0.02, -0.025}, probe().time(), 0.003));
-  while (!isClear(step(0.0, 0.04))) {
-  }
-  sweep_guard::Attach attached;
-  attached.request.mesh_id = "payload";
-  attached.request.link = "left";
-  attached.request.attach = 1;
-  ASSERT_TRUE(ros::service::call("/sweep_guard/attach", attached));
-  ASSERT_TRUE(attached.response.success) << attached.response.message;
-  while (!isClear(step(0.0, 0.04))) {
-  }
+  placePayload();
+  attachPayload(true);
+  restAtFullWidth();
   probe().forgetContacts();
   for (int i = 0; i <= 10; ++i) step(0.0, 0.04 - 0.002 * i);
   std::set<std::string> links;
@@ -110,11 +132,54 @@ TEST_F(GripperTest, WhatAFingerHoldsMovesWithIt) {
     }
   }
   EXPECT_EQ(links, std::set<std::string>{"payload"});
-  attached.request.attach = 0;
-  step(0.0, 0.04);
-  ASSERT_TRUE(ros::service::call("/sweep_guard/attach", attached));
-  EXPECT_TRUE(attached.response.success) << attached.response.message;
-  for (const char* const id : {"payload", "plate"}) probe().remove(id);
+  removePayload();
+}
+
+std::map<std::string, std::string> framesOf(const ToolBalls& balls) {
+  std::map<std::string, std::string> frames;
+  for (const auto& piece : balls.pieces) frames[piece.link] = piece.frame;
+  return frames;
+}
+
+// The square is 7 mm beside the left finger.
+TEST_F(GripperTest, EachLinkHasPlanesAtThePositionOfTheJaw) {
+  const TopicListener<ToolBalls> tool("tool_balls");
+  const TopicListener<Proximity> planes("proximity");
+  const Proximity found = messageAt(planes, 0.03);
+  const ToolBalls balls = tool.awaitNewest([&](const auto& each) { return each.revision == found.tool_revision; });
+  EXPECT_TRUE(found.valid);
+  EXPECT_EQ(found.joints, std::vector<std::string>{"jaw"});
+  EXPECT_EQ(found.positions, std::vector<double>{0.03});
+  EXPECT_EQ(framesOf(balls), (std::map<std::string, std::string>{{"fore", ""}, {"left", "left"}, {"right", "right"}}));
+  std::map<std::string, double> gaps;
+  for (const auto& plane : found.planes) {
+    EXPECT_EQ(plane.tool_link, balls.pieces.at(plane.piece).link);
+    gaps.emplace(plane.tool_link, plane.gap);  // the nearest is the first
+  }
+  EXPECT_NEAR(gaps.at("left"), 0.95 * 0.007, 1e-5);
+  EXPECT_NEAR(gaps.at("right"), 0.95 * 0.047, 1e-5);
+  EXPECT_NEAR(gaps.at("fore"), 0.95 * std::hypot(0.017, 0.007), 1e-5);
+}
+
+TEST_F(GripperTest, WhatAFingerHoldsHasBallsAndPlanes) {
+  placePayload();
+  const TopicListener<ToolBalls> tool("tool_balls");
+  const TopicListener<Proximity> planes("proximity");
+  const std::uint32_t before = messageAt(planes, 0.04).tool_revision;
+  attachPayload(true);
+  const ToolBalls balls = tool.awaitNewest([](const ToolBalls& each) { return framesOf(each).count("payload") > 0; });
+  EXPECT_EQ(balls.revision, before + 1);
+  EXPECT_EQ(framesOf(balls).at("payload"), "left");
+  restAtFullWidth();
+  const Proximity found = messageAt(planes, 0.03);
+  EXPECT_EQ(found.tool_revision, balls.revision);
+  double gap = std::numeric_limits<double>::infinity();
+  for (const auto& plane : found.planes) {
+    if (plane.tool_link == "payload" && plane.mesh_id == "plate") gap = std::min(gap, plane.gap);
+  }
+  EXPECT_NEAR(gap, 0.95 * 0.006, 1e-4);  // grown by 1 mm
+  removePayload();
+  tool.awaitNewest([](const ToolBalls& each) { return framesOf(each).count("payload") == 0; });
 }
 
 TEST_F(GripperTest, ASilentPoseIsNamed) {

@@ -146,7 +146,7 @@ TEST(LimitMemoryTest, ZeroLimitsNothing) {
 }
 
 // Returns the number of heaps that malloc has made for eight threads at once.
-int heapsOfEightThreads() {
+[[maybe_unused]] int heapsOfEightThreads() {
   std::array<std::thread, 8> threads;
   std::array<std::unique_ptr<int>, 8> made;
   std::atomic<std::size_t> ready{0};

@@ -1,5 +1,8 @@
 // launch/servo.launch in a namespace, without an argument for that, with a stand-in for MoveIt Servo. On the wall clock:
 // silence has a limit.
+#include <sensor_msgs/JointState.h>
+#include <trajectory_msgs/JointTrajectory.h>
+
 #include "drop_in_fixture.h"
 #include "stand_ins.h"
 
@@ -7,6 +10,7 @@ namespace sweep_guard_ros {
 namespace {
 
 using geometry_msgs::Twist;
+using trajectory_msgs::JointTrajectory;
 using Iteration = FakeServo::Iteration;
 
 constexpr int kNoWarning = 0;
@@ -14,6 +18,10 @@ constexpr int kNoWarning = 0;
 class ServoTest : public DropInTest {
  protected:
   ServoTest() {
+    sensor_msgs::JointState state;
+    state.name = {"shoulder", "elbow", "jaw"};
+    state.position.assign(3, 0.0);
+    joint_states_.send(state);
     poses_.send(poseAtOrigin());
     command(kUp);
     awaitVelocity(kUp);
@@ -31,39 +39,44 @@ class ServoTest : public DropInTest {
   }
 
   void awaitVelocity(const Twist& twist) const {
-    await("the whole command", [&](const Iteration& now) { return now.velocity == twist && now.scale == 1.0; });
+    await("the whole command", [&](const Iteration& now) { return now.velocity == twist; });
   }
 
   void expectStandstill() {
-    await("standstill", [](const Iteration& now) { return isZero(now.velocity) && now.scale == 0.0; });
-    for (int i = 0; i < 20; ++i) {
-      const Iteration now = servo_.iterations().next();
-      EXPECT_TRUE(isZero(now.velocity));
-      EXPECT_EQ(now.scale, 0.0);
-    }
+    await("standstill", [](const Iteration& now) { return isZero(now.velocity); });
+    for (int i = 0; i < 20; ++i) EXPECT_TRUE(isZero(servo_.iterations().next().velocity));
+  }
+
+  static double shoulderSpeed(const JointTrajectory& sent) { return sent.points.at(0).velocities.at(0); }
+  void awaitShoulder(double speed) const {
+    controller_.await("a speed of the shoulder", [=](const auto& sent) { return shoulderSpeed(sent) == speed; });
   }
 
   Stream<geometry_msgs::PoseStamped> poses_{"tool_pose"};
   Stream<geometry_msgs::TwistStamped> commands_{"operator/delta_twist_cmds"};
+  Stream<sensor_msgs::JointState> joint_states_{"joint_states"};
   FakeServo servo_{"servo_server"};
+  FakeGuard arm_guard_{
+      "arm_guard", {"base", "fore", {0.2, 0.0, 0.0}, {0.5, 0.0, 0.0}, {"shoulder", "elbow", "jaw"}, {0.0, 0.0, 0.0}}};
+  Listener<JointTrajectory> controller_{"joint_group_velocity_controller/command"};
 };
 
-TEST_F(ServoTest, AFreeCommandArrivesUntouchedAndServoChecksNoCollisions) {
-  EXPECT_FALSE(servo_.checksCollisions());
+// Both are Servo's own, which looks for self-collisions with them.
+TEST_F(ServoTest, AFreeCommandArrivesUntouchedAndServosScaleAndChecksAreLeftAlone) {
+  EXPECT_FALSE(servo_.hearsAScale());
+  EXPECT_FALSE(ros::param::has("servo_server/check_collisions"));
   command(kDown);
   awaitVelocity(kDown);
 }
 
-TEST_F(ServoTest, ACommandToANearPlaneArrivesLimitedAndARetreatWholeAtFullScale) {
+TEST_F(ServoTest, ACommandToANearPlaneArrivesLimitedAndARetreatWhole) {
   guard_.setGap(kNear);
   command(kDown);
-  const Iteration limited = await("a limited command", [](const Iteration& now) { return isLimited(now.velocity); });
-  EXPECT_EQ(limited.scale, 1.0);
+  await("a limited command", [](const Iteration& now) { return isLimited(now.velocity); });
   command(kUp);
   awaitVelocity(kUp);
 }
 
-// Servo would stay halted if a scale of 0 met another command than zero.
 TEST_F(ServoTest, StopsWhileTheGuardIsUnknownOrSilentAndGoesOnWithoutAReset) {
   for (int i = 0; i < 5; ++i) {
     guard_.setLevel(sweep_guard::Warning::UNKNOWN);
@@ -76,6 +89,27 @@ TEST_F(ServoTest, StopsWhileTheGuardIsUnknownOrSilentAndGoesOnWithoutAReset) {
     awaitVelocity(kUp);
   }
   EXPECT_EQ(servo_.iterations().next().status, kNoWarning);
+}
+
+// The tip is free, a link is not.
+TEST_F(ServoTest, BehindServoTheJointsAreLimitedBeforeALinkAndARetreatIsWhole) {
+  arm_guard_.setGap(kNear);
+  command(kDown);
+  awaitVelocity(kDown);
+  const double whole = -kDown.linear.z / FakeServo::kReach;
+  controller_.await("a part of the speed",
+                    [=](const auto& sent) { return shoulderSpeed(sent) > 0.0 && shoulderSpeed(sent) < 0.9 * whole; });
+  command(kUp);
+  awaitShoulder(-kUp.linear.z / FakeServo::kReach);
+}
+
+TEST_F(ServoTest, BehindServoTheJointsStopWhileTheGuardOfTheLinksIsUnknown) {
+  awaitShoulder(-kUp.linear.z / FakeServo::kReach);
+  arm_guard_.setLevel(sweep_guard::Warning::UNKNOWN);
+  awaitShoulder(0.0);
+  awaitVelocity(kUp);
+  arm_guard_.setLevel(sweep_guard::Warning::CLEAR);
+  awaitShoulder(-kUp.linear.z / FakeServo::kReach);
 }
 
 TEST_F(ServoTest, StopsByItsOwnTimeoutWhenTheMotionGuardDies) {

@@ -1,6 +1,7 @@
 #include "stand_ins.h"
 
 #include <std_msgs/Int8.h>
+#include <trajectory_msgs/JointTrajectory.h>
 
 #include <algorithm>
 
@@ -23,10 +24,8 @@ geometry_msgs::Twist scaled(double scale, geometry_msgs::Twist twist) {
 
 }  // namespace
 
-FakeServo::FakeServo(const std::string& name)
-    : node_(name),
-      timeout_(node_.param("incoming_command_timeout", 0.0)),
-      checks_collisions_(node_.param("check_collisions", true)) {
+FakeServo::FakeServo(const std::string& name) : node_(name), timeout_(node_.param("incoming_command_timeout", 0.0)) {
+  joint_publisher_ = node_.advertise<trajectory_msgs::JointTrajectory>("joint_command", kServoQueue);
   status_publisher_ = node_.advertise<std_msgs::Int8>("status", kServoQueue);
   command_subscriber_ = node_.subscribe<geometry_msgs::TwistStamped>(
       "delta_twist_cmds", kServoQueue, [this](const geometry_msgs::TwistStamped::ConstPtr& command) {
@@ -61,6 +60,12 @@ void FakeServo::iterate() {
     if (status_ != kHaltForCollision) velocity = scaled(scale_, command_.twist);
   }
   iterations_.set({velocity, scale_, status_});
+  trajectory_msgs::JointTrajectory joints;  // without a stamp, as Servo's: from now on
+  joints.joint_names = {"shoulder", "elbow"};
+  joints.points.resize(1);
+  joints.points[0].velocities = {-velocity.linear.z / kReach, 0.0};
+  joints.points[0].time_from_start = ros::Duration(std::chrono::duration<double>(kServoPeriod).count());
+  joint_publisher_.publish(joints);
 }
 
 FakeTwistMux::FakeTwistMux(const std::string& name) : node_(name) {

@@ -18,8 +18,8 @@
 
 namespace sweep_guard_ros {
 
-/// What MoveIt Servo of ROS Noetic does with a twist, without joints: names, types, time-out, scale and sticky status are
-/// those of moveit_servo/src/servo_calcs.cpp.
+/// What MoveIt Servo of ROS Noetic does with a twist: names, types, time-out, scale and sticky status are those of
+/// moveit_servo/src/servo_calcs.cpp. The arm is shoulder and elbow of arm.urdf, stretched out: the shoulder alone moves its end.
 class FakeServo {
  public:
   struct Iteration {
@@ -28,18 +28,19 @@ class FakeServo {
     int status;
   };
 
-  /// Reads incoming_command_timeout and check_collisions from the private parameters of this node.
+  static constexpr double kReach = 0.5;  ///< of the end of the arm [m]
+
+  /// Reads incoming_command_timeout from the private parameters of this node.
   explicit FakeServo(const std::string& name);
 
   const Watched<Iteration>& iterations() const { return iterations_; }
-  bool checksCollisions() const { return checks_collisions_; }
+  bool hearsAScale() const { return scale_subscriber_.getNumPublishers() > 0; }
 
  private:
   void iterate();
 
   ros::NodeHandle node_;
   const double timeout_;
-  const bool checks_collisions_;
   std::mutex mutex_;
   geometry_msgs::TwistStamped command_;
   ros::Time newest_stamp_;
@@ -47,6 +48,7 @@ class FakeServo {
   int status_ = 0;
   Watched<Iteration> iterations_;
   ros::Publisher status_publisher_;
+  ros::Publisher joint_publisher_;
   ros::Subscriber command_subscriber_;
   ros::Subscriber scale_subscriber_;
   ros::ServiceServer reset_;

@@ -203,6 +203,33 @@ TEST(PanelStateTest, DisabledIsNotClearAndSaysSo) {
   EXPECT_EQ(state.title, "DISABLED");
 }
 
+sweep_guard::MotionStatus motionStatus(std::int8_t code, double scale) {
+  sweep_guard::MotionStatus status;
+  status.code = code;
+  status.scale = scale;
+  status.text = "what is done and why";
+  return status;
+}
+
+TEST(HeldStateTest, SaysNothingOfACommandThatIsPassedOn) {
+  EXPECT_EQ(heldState(motionStatus(sweep_guard::MotionStatus::NO_WARNING, 1.0)).text, "");
+  EXPECT_EQ(heldState({}).text, "");
+}
+
+TEST(HeldStateTest, SaysWhyARobotIsStopped) {
+  for (const std::int8_t code : {sweep_guard::MotionStatus::HALT_FOR_COLLISION, sweep_guard::MotionStatus::INVALID}) {
+    const HeldState state = heldState(motionStatus(code, 0.0));
+    EXPECT_TRUE(state.stopped);
+    EXPECT_EQ(state.text, "what is done and why");
+  }
+}
+
+TEST(HeldStateTest, SaysHowMuchOfTheSpeedIsLeft) {
+  const HeldState state = heldState(motionStatus(sweep_guard::MotionStatus::DECELERATE_FOR_COLLISION, 0.347));
+  EXPECT_FALSE(state.stopped);
+  EXPECT_EQ(state.text, "what is done and why (35 % of the speed)");
+}
+
 TEST(LevelHistoryTest, KeepsTheLevelOfTwentySecondsAgo) {
   LevelHistory history;
   const auto at = [](double seconds) {

@@ -6,6 +6,7 @@
 #include <std_srvs/Trigger.h>
 #include <sweep_guard/Acknowledge.h>
 #include <sweep_guard/Interaction.h>
+#include <sweep_guard/MotionStatus.h>
 
 #include <QApplication>
 #include <QLabel>
@@ -199,6 +200,51 @@ TEST_F(WarningPanelTest, TheTopicIsSavedWithTheConfiguration) {
   QString topic;
   ASSERT_TRUE(config.mapGetString("Warning Topic", &topic));
   EXPECT_EQ(topic, kTopic);
+}
+
+TEST_F(WarningPanelTest, WhatAMotionGuardHoldsBackIsSaidInItsColorUntilItLetsGoOrIsSilent) {
+  rviz::Config config;
+  config.mapSetValue("Motion Status Topic", "/other/motion_guard/status");
+  panel_.load(config);
+  ros::Publisher statuses = node_.advertise<sweep_guard::MotionStatus>("/other/motion_guard/status", 10);
+  auto* const held = panel_.findChild<QLabel*>("held");
+  say(warningLevel(Warning::CLEAR));
+  EXPECT_FALSE(held->isVisible());
+  sweep_guard::MotionStatus status;
+  const auto awaitHeld = [&](std::int8_t code, bool visible) {
+    status.code = code;
+    await("what is said", [&] {
+      statuses.publish(status);
+      return held->isVisible() == visible;
+    });
+  };
+  status.text = "stopped before 'wall', triangle 7, 1.2 mm in front of link 'forearm'; back along the arrow";
+  awaitHeld(sweep_guard::MotionStatus::HALT_FOR_COLLISION, true);
+  EXPECT_EQ(held->text().toStdString(), status.text);
+  keepPicture(panel_.grab().toImage(), "panel_held");
+  EXPECT_GT(shareOf(held->grab().toImage(), isMagenta), 0.4);
+  awaitHeld(sweep_guard::MotionStatus::NO_WARNING, false);
+  status.text = "slowed before 'wall'";
+  status.scale = 0.5;
+  awaitHeld(sweep_guard::MotionStatus::DECELERATE_FOR_COLLISION, true);
+  EXPECT_EQ(held->text(), "slowed before 'wall' (50 % of the speed)");
+  keepPicture(panel_.grab().toImage(), "panel_slowed");
+  await("silence", [&] { return !held->isVisible(); });
+}
+
+TEST_F(WarningPanelTest, TheTopicOfTheMotionGuardIsSavedWithTheConfiguration) {
+  QString topic;
+  rviz::Config before;
+  panel_.save(before);
+  ASSERT_TRUE(before.mapGetString("Motion Status Topic", &topic));
+  EXPECT_EQ(topic, "motion_guard/status");
+  rviz::Config config;
+  config.mapSetValue("Motion Status Topic", "/arm/status");
+  panel_.load(config);
+  rviz::Config after;
+  panel_.save(after);
+  ASSERT_TRUE(after.mapGetString("Motion Status Topic", &topic));
+  EXPECT_EQ(topic, "/arm/status");
 }
 
 TEST_F(WarningPanelTest, WithADifferentClockTheChartIsAsGrayAsTheLight) {

@@ -94,6 +94,71 @@ TEST(EarconTest, WhatIsAcknowledgedIsQuieter) {
   EXPECT_GT(quiet, 0.0);
 }
 
+TEST(HeldEarconTest, IsATwoToneWarbleWithoutAGap) {
+  const auto samples = render(heldEarcon(1.0), 3.0);
+  EXPECT_EQ(beeps(samples), 1);
+  EXPECT_NEAR(frequency(samples, 0.1, 0.15), 480.0, 25.0);
+  EXPECT_NEAR(frequency(samples, 0.15, 0.2), 640.0, 25.0);
+  EXPECT_NEAR(frequency(samples, 0.1, 2.9), 560.0, 2.0);
+}
+
+TEST(HeldEarconTest, IsTheLouderTheMoreIsHeldBack) {
+  EXPECT_EQ(loudest(render(heldEarcon(0.0), 1.0)), 0.0);
+  double before = 0.1;
+  for (const double share : {0.01, 0.3, 0.6, 1.0}) {
+    const double loud = loudest(render(heldEarcon(share), 1.0));
+    EXPECT_GT(loud, before + 1e-3) << share;
+    before = loud;
+  }
+  EXPECT_NEAR(before, 0.5, 0.01);
+}
+
+// One that was begun anew every 10 ms would never come to its second tone.
+TEST(HeldEarconTest, WarblesOnWhileItsLoudnessChanges) {
+  Synthesizer synthesizer(kRate);
+  std::vector<std::int16_t> samples;
+  for (int i = 0; i < 200; ++i) synthesizer.render(Earcon(), kRate / 100, samples, heldEarcon(0.5 + 0.002 * i));
+  EXPECT_NEAR(frequency(samples, 0.1, 1.9), 560.0, 5.0);
+}
+
+std::vector<std::int16_t> renderBoth(const Earcon& warning, const Earcon& held, double seconds) {
+  std::vector<std::int16_t> samples;
+  Synthesizer(kRate).render(warning, static_cast<size_t>(seconds * kRate), samples, held);
+  return samples;
+}
+
+// Whether two sounds are the same from one time to another.
+bool same(const std::vector<std::int16_t>& a, const std::vector<std::int16_t>& b, double begin, double end) {
+  const auto at = [](const auto& samples, double time) { return samples.begin() + std::lround(time * kRate); };
+  return std::equal(at(a, begin), at(a, end), at(b, begin));
+}
+
+// Up to the 5 ms in which a sound begins or fades.
+TEST(HeldEarconTest, LeavesTheLoudestWarningsAsTheyAreAndFillsTheirGaps) {
+  const Earcon contact = earconOf(at(WarningLevel::kContact), true);
+  EXPECT_TRUE(same(renderBoth(contact, heldEarcon(1.0), 1.0), render(contact, 1.0), 0.006, 1.0));
+  const Earcon reflex = earconOf(at(WarningLevel::kReflex), true);
+  const auto alone = render(reflex, 1.0);
+  const auto both = renderBoth(reflex, heldEarcon(1.0), 1.0);
+  for (double begin = 0.0; begin < 0.95; begin += 0.1) {
+    EXPECT_TRUE(same(both, alone, begin + 0.006, begin + 0.055)) << begin;
+    EXPECT_FALSE(same(both, alone, begin + 0.07, begin + 0.09)) << begin;
+  }
+}
+
+TEST(HeldEarconTest, IsHeardBesideEachWarningButContact) {
+  for (const auto level :
+       {WarningLevel::kUnknown, WarningLevel::kClear, WarningLevel::kConsidered, WarningLevel::kReflex}) {
+    const Earcon warning = earconOf(at(level), false);
+    const auto alone = render(warning, 1.0);
+    const auto both = renderBoth(warning, heldEarcon(1.0), 1.0);
+    std::vector<std::int16_t> rest(alone.size());
+    for (size_t i = 0; i < alone.size(); ++i) rest[i] = static_cast<std::int16_t>(both[i] - alone[i]);
+    EXPECT_GT(loudest(rest), 0.4) << styleOf(level).name;
+    EXPECT_LE(loudest(both), 1.0) << styleOf(level).name;
+  }
+}
+
 // Silence must not mean anything but a clear level that is told not to tick.
 TEST(EarconTest, EveryOtherLevelSounds) {
   for (const auto level :
@@ -113,7 +178,8 @@ TEST(SynthesizerTest, NeverClicks) {
     random = random * 1664525U + 1013904223U;
     MergedWarning cue = at(static_cast<WarningLevel>((random >> 16U) % 5), (random >> 8U) % 1000 / 1000.0);
     cue.acknowledged = (random >> 24U) % 2 == 0;
-    synthesizer.render(earconOf(cue, true), (random >> 20U) % 1500, samples);
+    const double held = std::max(0.0, (random >> 12U) % 200 / 100.0 - 1.0);  // half of the time none
+    synthesizer.render(earconOf(cue, true), (random >> 20U) % 1500, samples, heldEarcon(held));
   }
   int largest = 0;
   for (size_t i = 1; i < samples.size(); ++i) largest = std::max(largest, std::abs(samples[i] - samples[i - 1]));

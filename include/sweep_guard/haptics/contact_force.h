@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sweep_guard/motion/braking.h"
+#include "sweep_guard/motion/moving_tool.h"
 #include "sweep_guard/motion/nearest_point.h"
 #include "sweep_guard/motion/plane_set.h"
 
@@ -16,6 +17,14 @@ struct ContactLaw {
   double distance = 0.0;     ///< from a plane at which the force begins [m], >= 0
   double cue_damping = 0.0;  ///< of a motion that meets a plane soon [N s/m], >= 0; 0: there is no such cue
   double cue_time = 0.3;     ///< before a plane is reached at which the cue begins [s], > 0
+};
+
+/// Where the pieces of the tool are.
+struct PiecePoses {
+  const Eigen::Isometry3d& X_WT;
+  const MovingTool* moving = nullptr;  ///< whose joints place them; null: they are fixed to the tool frame
+
+  const Eigen::Isometry3d& of(size_t piece) const { return moving ? moving->pieces()[piece].X_WL : X_WT; }
 };
 
 /// A force on the tool, and its torque about the origin of the tool frame, along the axes of W.
@@ -38,12 +47,12 @@ class ContactForceFinder {
   ContactForceFinder();
 
   /// @param tool     that `planes` belong to
-  /// @param twist_W  velocity of the tool, for damping and cue
-  ToolForce find(const PlaneSet& planes, const ToolBalls& tool, const Eigen::Isometry3d& X_WT, const Twist& twist_W,
+  /// @param twist_W  velocity of the tool, for damping and cue; its joints count as at rest
+  ToolForce find(const PlaneSet& planes, const ToolBalls& tool, const PiecePoses& poses, const Twist& twist_W,
                  const ContactLaw& law);
 
  private:
-  void collectNearestBalls(const PlaneSet& planes, const ToolBalls& tool, const Eigen::Isometry3d& X_WT);
+  void collectNearestBalls(const PlaneSet& planes, const ToolBalls& tool, const PiecePoses& poses);
   ToolForce contact(const Twist& twist_W, const ContactLaw& law);
   void addCue(const Twist& twist_W, const ContactLaw& law, ToolForce& force) const;
 

@@ -34,17 +34,30 @@ struct ForcePermission {
   PermissionCause cause = PermissionCause::kNoWarning;
 };
 
+/// A tool whose pieces joints move apart, at the newest pose of its frame.
+struct PlacedByJoints {
+  const MovingTool* tool;  ///< not null; must outlive its use
+  Timestamps timestamps;   ///< of the joints
+};
+
+/// What a force is computed from.
+struct ForceInputs {
+  std::optional<Timestamps> device;  ///< newest pose that the device tells itself; empty: the tool stands for it
+  MotionInputs known;                ///< of the guard, and the newest pose of the tool
+  std::optional<PlacedByJoints> placed = {};           ///< where joints put the tool's pieces; empty: it is rigid
+  Eigen::Matrix3d R_WD = Eigen::Matrix3d::Identity();  ///< axes of the device in the fixed frame
+};
+
 /// Decides how much of a force is let through. Nothing is remembered. The first row that applies wins:
 ///
 /// | inputs | gain |
 /// |---|---|
 /// | no warning for `warning_silence`, UNKNOWN | 0 |
 /// | no pose or no planes yet, an old pose, planes past `valid_until`, incomplete or of an unknown tool | 0 |
-/// | pose, planes or device silent for `silence` | from 1 down to 0 within `ramp` |
+/// | planes of a tool that joints move, and it is not known where they put it, or an old place | 0 |
+/// | pose, planes, joints or device silent for `silence` | from 1 down to 0 within `ramp` |
 /// | otherwise | 1 |
-/// @param device  newest pose that the device reports itself; empty: the tool stands for it
-ForcePermission decideForce(const MotionInputs& inputs, const std::optional<Timestamps>& device, const Instant& now,
-                            const ForceOptions& options);
+ForcePermission decideForce(const ForceInputs& inputs, const Instant& now, const ForceOptions& options);
 
 /// A device that is sampled and driven with a period, and the damper that is simulated with it.
 struct SampledDevice {
@@ -72,13 +85,6 @@ double dampingWithLever(double damping, double turn_damping, double lever);
 struct DeviceWrench {
   Eigen::Vector3d force_D = Eigen::Vector3d::Zero();   ///< [N]
   Eigen::Vector3d torque_D = Eigen::Vector3d::Zero();  ///< [N m]
-};
-
-/// What a force is computed from.
-struct ForceInputs {
-  std::optional<Timestamps> device;                    ///< newest pose of the device, if it tells its own
-  MotionInputs known;                                  ///< of the guard, and the newest pose of the tool
-  Eigen::Matrix3d R_WD = Eigen::Matrix3d::Identity();  ///< axes of the device in the fixed frame
 };
 
 struct RenderedForce {

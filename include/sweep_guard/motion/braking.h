@@ -35,10 +35,18 @@ struct UncoveredSurfaces {
 double stoppingSpeed(double distance, const BrakingLimits& limits);
 
 /// Returns the largest speed [m/s], >= 0, at which the tool's own motion may bring a ball closer to a plane while the
-/// tool turns at `turn_rate`. At this speed u, with c = u + the surface's speed to the tool, c^2 / (2 deceleration) + c
-/// reaction_time + tool_radius (turn_rate T)^2 / 2 <= gap - standoff, where T = reaction_time + c / deceleration is the
-/// time until the ball is at rest. 0 if the surface comes faster than that. A surface that goes away counts as at rest.
-double closingLimit(const FacingBall& ball, double turn_rate, const BrakingLimits& limits);
+/// ball runs along an arc. At this speed u, with c = u + the surface's speed to the tool, c^2 / (2 deceleration) + c
+/// reaction_time + acceleration T^2 / 2 <= gap - standoff, where T = reaction_time + c / deceleration is the time until
+/// the ball is at rest. 0 if the surface comes faster than that. A surface that goes away counts as at rest.
+/// @param acceleration  bound on that of the ball while the motion goes on as it is [m/s^2], >= 0
+double closingLimit(const FacingBall& ball, double acceleration, const BrakingLimits& limits);
+
+/// Returns a bound on the acceleration of any tool point to the axis of a turn [m/s^2].
+double arcAcceleration(const Twist& twist_W, double tool_radius);
+
+/// Returns whether a gap grows until the next command although its surface comes and the ball runs along an arc.
+/// @param closing, acceleration  speed [m/s] by the tool's own motion, and as for closingLimit()
+bool opens(const FacingBall& ball, double closing, double acceleration, const BrakingLimits& limits);
 
 /// Returns how fast the tool's own motion brings a ball closer to its plane [m/s]; negative: the gap grows.
 double closingSpeed(const FacingBall& ball, const Twist& twist_W);

@@ -27,15 +27,16 @@ struct MotionCommand {
 /// What is sent in place of a command, and why.
 struct GuardedMotion {
   struct Limiting {
-    size_t plane;          ///< index into PlaneSet::planes
-    double gap;            ///< of the ball that is limited, at the newest pose or where it is expected [m]
-    double closing_limit;  ///< largest closing speed that is allowed [m/s], >= 0
+    size_t plane;              ///< index into PlaneSet::planes
+    Eigen::Vector3d normal_W;  ///< of the plane: unit, from the surface to the tool
+    double gap;                ///< of the ball that is limited, at the newest pose or where it is expected [m]
+    double closing_limit;      ///< largest closing speed that is allowed [m/s], >= 0
   };
   Twist twist_W;  ///< of the point of the command; bit for bit the command's if nothing limits it
   PermissionDecision decision;
-  double scale = 0.0;                ///< speed of the fastest tool point / that of the command, in [0, 1]; at rest 1
-  double commanded_speed = 0.0;      ///< of the fastest tool point [m/s]
-  double sent_speed = 0.0;           ///< of the fastest tool point [m/s]
+  double scale = 0.0;            ///< speed of the fastest tool point / that of the command, in [0, 1]; at rest 1
+  double commanded_speed = 0.0;  ///< of the fastest tool point [m/s]; NaN: joints move, and where it is is not known
+  double sent_speed = 0.0;       ///< of the fastest tool point [m/s]
   std::optional<Limiting> limiting;  ///< plane that the command closes on most above its limit; empty: none does
   Duration planes_age{};             ///< on the clock on which it is larger; 0 without planes
 };
@@ -52,11 +53,10 @@ class MotionGuard {
   /// @throws InvalidInput  if the command is not finite or out of range; then stop() has to be sent
   GuardedMotion guard(const MotionInputs& inputs, const MotionCommand& command, const Instant& now);
 
-  /// Decides how much of a command is let through, as guard() does, and remembers nothing.
+  /// Decides how much of a command is let through, as guard() does, and remembers nothing: as decidePermission(), but nothing
+  /// before planes of a tool that joints move.
   /// @param command  without a stamp of its own, that of its receipt
-  PermissionDecision permission(const MotionInputs& inputs, const Timestamps& command, const Instant& now) const {
-    return decidePermission(inputs, command, now, options_);
-  }
+  PermissionDecision permission(const MotionInputs& inputs, const Timestamps& command, const Instant& now) const;
 
   /// Remembers that zero was sent.
   void stop(SteadyTime now);
@@ -66,7 +66,6 @@ class MotionGuard {
  private:
   void limit(const MotionInputs& inputs, const MotionCommand& command, const Instant& now, GuardedMotion& motion);
   Eigen::Isometry3d expectedPose(const MotionInputs& inputs, const MotionCommand& command, const Instant& now) const;
-  Duration settlingTime() const { return options_.dead_time + 2 * options_.time_constant; }
   BrakingLimits brakingLimits(const MotionInputs& inputs, const MotionCommand& command, const Instant& now) const;
   void collectFacing(const MotionInputs& inputs, const MotionCommand& command, const Eigen::Isometry3d& X_WT);
   std::optional<GuardedMotion::Limiting> limiting(const Twist& command_W, const BrakingLimits& limits) const;

@@ -34,8 +34,13 @@ enum class PermissionCause : std::uint8_t {
   kNoPose,         ///< no tool pose has arrived yet
   kPoseSilent,     ///< no tool pose has arrived within `silence`
   kOldPose,        ///< the newest tool pose is older than `pose_age`
+  kNoJoints,       ///< no joint positions have arrived yet
+  kJointsSilent,   ///< no joint positions have arrived within `silence`
+  kOldJoints,      ///< the newest joint positions are older than `pose_age`
+  kOtherJoints,    ///< the separating planes are of a rigid tool, or of a robot with other joints or links
   kIncomplete,     ///< not every workpiece was tested at the pose of the separating planes
   kNoTool,         ///< the tool that the separating planes were computed for is not known
+  kMovingJoints,   ///< joints move the guard's tool, and none are known here that place it
   kDeviceSilent    ///< of a haptic device: none of its own poses has arrived within ForceOptions::silence
 };
 
@@ -53,8 +58,16 @@ struct MotionGuardOptions {
   double escape_speed = 0.0;                                  ///< of any tool point [m/s], >= 0; 0: no escape
   double unseen_speed = 0.05;  ///< largest of any tool point where no camera sees it going [m/s], >= 0
   Duration escape_plane_age = std::chrono::milliseconds(500);  ///< older planes do not show where to escape to; > 0
-  Duration pose_age = std::chrono::milliseconds(500);          ///< of the tool's pose, by its stamp; > 0
+  Duration pose_age = std::chrono::milliseconds(500);          ///< of the tool's pose or joints, by its stamp; > 0
+
+  /// Returns how long the robot goes on after the last command.
+  Duration settlingTime() const { return dead_time + 2 * time_constant; }
+  /// Returns what the robot can do with inputs of an age and commands of a period, for a tool without a radius.
+  BrakingLimits brakingLimits(Duration period, Duration age_of_inputs) const;
 };
+
+/// @throws InvalidInput  if an option is NaN or out of range
+void requireUsable(const MotionGuardOptions& options);
 
 /// What is known when a command is to be passed on, apart from the command. Null or empty: nothing has arrived yet.
 struct MotionInputs {
@@ -76,6 +89,7 @@ struct MotionInputs {
   std::optional<ToolPose> pose;            ///< newest one
   std::optional<GuardWarning> warning;     ///< newest one
 
+  bool jointsMoveTool() const { return planes && !planes->joints.empty(); }
   bool toolIsKnown() const { return tool && belongsTo(*planes, *tool); }  ///< that the planes were computed for
 };
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "sweep_guard/common/time.h"
@@ -19,12 +20,15 @@ struct PlaneSet {
   std::vector<SeparatingPlane> planes;                     ///< nearest first
   UncoveredSurfaces uncovered;                             ///< what no plane stands for
   Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< the swept pose
+  std::vector<std::string> joints = {};                    ///< that place the bodies of the tool; none: it is rigid
+  std::vector<double> positions = {};                      ///< of each at the swept pose [rad or m]
 };
 
 /// The convex pieces of a tool, each as balls whose convex hull contains it.
 struct ToolBalls {
   std::uint32_t revision = 0;                 ///< another one for each tool, and in each run of the guard
-  std::vector<std::vector<ToolBall>> pieces;  ///< in the tool frame
+  std::vector<std::vector<ToolBall>> pieces;  ///< in the frame of their body
+  std::vector<std::string> frames = {};       ///< of each piece: link of that frame; empty: the tool frame
 };
 
 /// Returns an upper bound on the distance of any tool point from `p_T` [m].

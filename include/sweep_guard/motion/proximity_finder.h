@@ -2,13 +2,15 @@
 
 // Idea: few planes stand for all surfaces near a tool, so whoever limits a motion looks at no mesh. A best-first search
 // [Hjaltason and Samet 1999] over all pairs of a convex piece and a mesh descends through the boxes of the mesh (groups,
-// clusters, triangles), and takes the part next that may be nearest to its piece. A part that lies wholly behind a plane
+// clusters, triangles), and takes the part next that may be nearest to its piece. The pieces of a body join the search
+// when the box around all of them may be nearest to a mesh. A part that lies wholly behind a plane
 // of its pair is done; any other triangle gets a plane of its own, along the direction of separation(). Invariant: each
 // triangle lies behind a plane of its pair or in a part that waits, and no part that waits is nearer than the first; so
 // the search may end at any time, at the reach or out of planes, and one distance bounds all that it leaves over. Cost:
 // a distance of boxes for each part that no plane covers, and a separation() only for triangles that may be the nearest;
 // no allocation once the buffers have grown.
 
+#include <boost/container/small_vector.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -25,9 +27,12 @@
 
 namespace sweep_guard_core {
 
-/// A tool at one pose, among workpieces.
+/// The bodies of a tool, each in its own frame. Their pieces are counted through.
+using BodyTools = boost::container::small_vector<const Tool*, 8>;
+
+/// A tool at one pose, among workpieces. Its bodies are as many as those of the pose (asserted).
 struct ProximityRequest {
-  const Tool& tool;
+  BodyTools bodies;  ///< in the order of PoseWithFrames::bodies; they must outlive the search
   const PoseWithFrames& pose;
   const Workpieces& workpieces;
   double reach;  ///< surfaces farther from the tool need no plane [m], > 0

@@ -11,7 +11,7 @@ namespace sweep_guard_core {
 /// A plane that a surface lies wholly behind and one convex piece of the tool lies in front of, when both were last
 /// swept. In the fixed frame W.
 struct SeparatingPlane {
-  size_t piece;              ///< index into Tool::pieces()
+  size_t piece;              ///< index into Tool::pieces(); those of several bodies are counted through
   Eigen::Vector3d normal_W;  ///< unit, from the surface to the tool
   Eigen::Vector3d point_W;   ///< a point of the plane [m]
   double gap;                ///< distance of the piece from the plane [m]; negative: the piece reaches through it

@@ -80,7 +80,7 @@ GuardSteps::GuardSteps(const ros::NodeHandle& private_node, const GuardThreadDep
       acknowledgements_(dependencies.parameters, dependencies.monitor, dependencies.sampler, guard_) {}
 
 void GuardSteps::setTool(const Parameters& parameters, ToolShapes& shapes) {
-  proximity_.setTool(*parameters.tool);
+  proximity_.setTool(parameters);
   interaction_.exchange(shapes.pieces);
   bodies_.setTool(*parameters.bodies, shapes.surface);
 }

@@ -34,12 +34,14 @@ HapticsNode::HapticsNode(const ros::NodeHandle& node, const ros::NodeHandle& pri
       cycle_(node, parameters_),
       output_watch_(cycle_.topic()),
       updater_(node, private_node, private_node.getNamespace()) {
+  if (parameters_.joints.tree) joints_.emplace(node, parameters_);
   if (parameters_.device_tells_pose) device_pose_.emplace(node, parameters_.device(), frames_);
   updater_.setHardwareID("none");
   updater_.add("force", [this](DiagnosticsLine& line) { force(line); });
   updater_.add("output", [this](DiagnosticsLine& line) { output(line); });
   updater_.add("guard", [this](DiagnosticsLine& line) { guard_.report(line); });
   updater_.add("tool pose", [this](DiagnosticsLine& line) { reportPose(tool_pose_, "tool pose", line); });
+  if (joints_) updater_.add("joints", [this](DiagnosticsLine& line) { joints_->input.report(line); });
   if (device_pose_) {
     updater_.add("device pose",
                  [this](DiagnosticsLine& line) { reportPose(*device_pose_, "pose of the device", line); });
@@ -54,6 +56,7 @@ void HapticsNode::start() {
   frames_.start(supervisor_);
   guard_.start(supervisor_);
   tool_pose_.start(supervisor_);
+  if (joints_) joints_->input.start(supervisor_);
   if (device_pose_) device_pose_->start(supervisor_, "device poses");
   forces_.start(supervisor_, {"forces", sweep_guard_core::Stage::kPublish}, [this] { priority_.make(); });
   reports_.start(supervisor_, {"reports", sweep_guard_core::Stage::kPublish});
@@ -70,6 +73,7 @@ void HapticsNode::tick() {
   sweep_guard_core::ForceInputs inputs;
   inputs.known = guard_.inputs();
   inputs.known.pose = tool_pose_.newest();
+  inputs.placed = placedByJoints(inputs.known);
   const std::optional<Eigen::Matrix3d> R_WD = axes_.newest(at.stamp);
   if (R_WD) {
     inputs.R_WD = *R_WD;
@@ -85,6 +89,17 @@ void HapticsNode::tick() {
     hand = {tool->X_WT, inputs.R_WD, parameters_.force.position_scale, tool->timestamps};
   }
   cycle_.tick(inputs, hand, at);
+}
+
+std::optional<sweep_guard_core::PlacedByJoints> HapticsNode::placedByJoints(
+    const sweep_guard_core::MotionInputs& known) {
+  if (!joints_ || !known.pose || !known.planes || !known.tool) return {};
+  auto& [input, measured, tool, at_rest] = *joints_;
+  if (!isPlacedBy(*parameters_.joints.tree, *known.planes, *known.tool) || !input.newest(*known.planes, measured))
+    return {};
+  measured.state.X_WR = known.pose->X_WT;
+  tool.place(measured.state, *known.tool, at_rest, {});
+  return sweep_guard_core::PlacedByJoints{&tool, measured.timestamps};
 }
 
 HapticsNode::~HapticsNode() {

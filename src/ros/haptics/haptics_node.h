@@ -10,6 +10,7 @@
 #include "ros/input/frames.h"
 #include "ros/motion/guard_input.h"
 #include "ros/motion/input_diagnostics.h"
+#include "ros/motion/joint_input.h"
 #include "ros/motion/tool_pose_input.h"
 #include "ros/process/log_throttle.h"
 #include "ros/threads/real_time_request.h"
@@ -37,6 +38,19 @@ class HapticsNode {
   void output(DiagnosticsLine& line) const;
 
   void tick();  // of `forces_`; allocates nothing
+  std::optional<sweep_guard_core::PlacedByJoints> placedByJoints(const sweep_guard_core::MotionInputs& known);
+
+  struct Joints {
+    Joints(const ros::NodeHandle& node, const HapticsParameters& parameters)
+        : input(node, parameters.joints, parameters.force.warning_silence),
+          tool(parameters.joints.tree),
+          at_rest(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.joints.tree->variables().size()))) {}
+
+    JointInput input;
+    sweep_guard_core::MeasuredJoints measured;  // of the newest tick, as the following
+    sweep_guard_core::MovingTool tool;
+    const Eigen::VectorXd at_rest;
+  };
 
   // Members use only earlier members.
   const HapticsParameters parameters_;
@@ -45,6 +59,7 @@ class HapticsNode {
   Frames frames_;
   GuardInput guard_;
   ToolPoseInput tool_pose_;
+  std::optional<Joints> joints_;  // of a tool that they move
   std::optional<ToolPoseInput> device_pose_;
   DeviceAxes axes_;
   RealTimeRequest priority_;

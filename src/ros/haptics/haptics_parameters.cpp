@@ -13,6 +13,10 @@ void readSources(ParameterReader& read, HapticsParameters& parameters) {
   tool = readPoseSource(read);
   tool.silence = parameters.force.warning_silence;
   parameters.guard = readGuard(read);
+  const bool moves = read.flag("tool/joint_states", false,
+                               "Joints move the links of the tool, as those of the guard: `joint_states` has "
+                               "their positions. The force is that on a tool that moves as a whole.");
+  parameters.joints = readJointSource(read, tool.frame, moves);
   parameters.device_frame = read.optionalName(
       "device_frame", "tf frame that does not move with the device, whose axes its force has. Empty: fixed_frame.");
   if (parameters.device_frame.empty()) parameters.device_frame = tool.fixed_frame;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ros/motion/pose_source.h"
+#include "ros/motion/source_parameters.h"
 #include "ros/parameters/parameters.h"
 #include "sweep_guard/haptics/force_renderer.h"
 #include "sweep_guard/haptics/passive_device.h"
@@ -17,6 +18,7 @@ namespace sweep_guard_ros {
 struct HapticsParameters {
   std::string guard;  ///< name of its node
   PoseSource tool;
+  JointSource joints;  ///< of a tool that joints move
   std::string device_frame;
   bool device_tells_pose;  ///< on `device_pose`; false: the pose of the tool stands for it
   sweep_guard_core::ForceOptions force;

@@ -47,6 +47,11 @@ const std::string* JointNames::firstIn(const sensor_msgs::JointState& message) c
   return first == message.name.end() ? nullptr : &*first;
 }
 
+std::optional<size_t> JointNames::variable(const std::string& name_in_messages) const {
+  const auto found = variables_.find(name_in_messages);
+  return found == variables_.end() ? std::nullopt : std::optional(found->second);
+}
+
 void JointNames::find(const sensor_msgs::JointState& message,
                       std::vector<sweep_guard_core::JointTimeline::Position>& positions) const {
   positions.clear();

@@ -38,6 +38,8 @@ class JointNames {
 
   /// Returns whether a joint of the robot has this name in messages, also one that is fixed or mimics another one.
   bool isOwn(const std::string& name_in_messages) const { return own_.count(name_in_messages) != 0; }
+  /// Returns the variable of the joint of this name in messages; empty: it has none.
+  std::optional<size_t> variable(const std::string& name_in_messages) const;
   /// Returns the name in messages of the joint of a variable.
   const std::string& inMessages(size_t variable) const { return names_[variable]; }
 

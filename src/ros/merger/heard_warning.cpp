@@ -1,9 +1,7 @@
 #include "ros/merger/heard_warning.h"
 
 #include <cmath>
-#include <utility>
 
-#include "ros/connection/sole_publisher.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/ros/conversions.h"
@@ -33,25 +31,6 @@ HeardWarning heardFrom(const sweep_guard::Warning& message) {
   warning.text = sweep_guard_core::printable(message.text);
   warning.received = now();
   return warning;
-}
-
-BoundedSubscriber subscribeToWarning(const ros::NodeHandle& node, const std::string& topic,
-                                     std::function<void(const sweep_guard::Warning&)> hear,
-                                     std::function<void(const std::string&)> refuse) {
-  constexpr size_t kMaxMessageSize = 64 << 20;
-  using Event = ros::MessageEvent<const sweep_guard::Warning>;
-  return subscribeBounded<sweep_guard::Warning>(
-      node, {topic, 10, kMaxMessageSize},
-      [hear = std::move(hear), refuse,
-       sole = SolePublisher(sweep_guard_core::kWarningValid)](const Event& event) mutable {
-        try {
-          if (!sole.alone(event.getPublisherName(), now().steady)) throw InvalidInput("several nodes publish it");
-          hear(*event.getConstMessage());
-        } catch (const InvalidInput& error) {
-          refuse(error.what());
-        }
-      },
-      refuse);
 }
 
 }  // namespace sweep_guard_ros

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "ros/connection/sole_publisher.h"
 #include "ros/merger/heard_warning.h"
 #include "ros/output/flush.h"
 #include "ros/output/run_id.h"
@@ -108,8 +109,9 @@ void WarningMergerNode::start() {
 }
 
 BoundedSubscriber WarningMergerNode::subscribe(const ros::NodeHandle& node, size_t guard, const std::string& topic) {
-  return subscribeToWarning(
-      thread_.on(node), topic, [this, guard](const sweep_guard::Warning& message) { hear(guard, message); },
+  return subscribeToSole<sweep_guard::Warning>(
+      thread_.on(node), topic, sweep_guard_core::kWarningValid,
+      [this, guard](const sweep_guard::Warning& message) { hear(guard, message); },
       [this, topic](const std::string& reason) { log_.error(topic, "message on " + topic + " refused: " + reason); });
 }
 

@@ -18,6 +18,10 @@ using sweep_guard_core::PermissionCause;
 constexpr sweep_guard_core::Duration kShortest = std::chrono::milliseconds(1);  // step of a pose
 constexpr double kLate = 1.5;                                                   // periods after which a command is late
 
+bool sendsSame(const sweep_guard_core::GuardedMotion& a, const sweep_guard_core::GuardedMotion& b) {
+  return a.twist_W == b.twist_W && a.scale == b.scale;
+}
+
 }  // namespace
 
 CommandCycle::CommandCycle(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
@@ -25,13 +29,12 @@ CommandCycle::CommandCycle(const ros::NodeHandle& node, const ros::NodeHandle& p
     : parameters_(parameters),
       sources_(sources),
       topic_(node.resolveName(CommandPort::kTopic)),
-      guard_(parameters.options),
       period_(parameters.options.command_timeout),
       gaps_(parameters.options.command_timeout, "command_timeout"),
       port_(makeCommandPort(
-          thread_.on(node), parameters, sources.frames,
-          [this](const auto& message, const auto& at) { onCommand(message, at); },
-          [this](const std::string& reason) { refuse(reason); })),
+          {thread_.on(node), parameters, [this](const auto& message, const auto& at) { onCommand(message, at); },
+           [this](const std::string& reason) { refuse(reason); }},
+          sources.frames, sources.joints)),
       rebase_(advertiseRebase(thread_.on(private_node))) {}
 
 void CommandCycle::onCommand(const CommandPort::Message& message, const sweep_guard_core::Timestamps& timestamps) {
@@ -58,7 +61,7 @@ CommandCycle::~CommandCycle() { stop(); }
 void CommandCycle::stop() {
   port_->stop();
   const sweep_guard_core::Lock lock(mutex_);
-  if (command_ && sent_W_) sendZero(now());
+  if (command_ && sent_motion_) sendZero(now());
   command_.reset();
 }
 
@@ -78,15 +81,15 @@ void CommandCycle::publishHold(HoldPublisher& hold) {
 void CommandCycle::update(const Instant& at) {
   if (!command_) return;
   if (at.steady - command_->received > parameters_.options.command_timeout) return halt(at);
-  if (!sent_W_) return;  // refused
-  const bool decided_anew = guard_.permission(inputs(), *command_, at).permission != permission_;
+  if (!sent_motion_) return;  // refused
+  const bool decided_anew = port_->permission(inputs(), *command_, at).permission != permission_;
   const bool late = !port_->isPose() && at.steady - sent_ > kLate * period_.longest();
   const bool repeats = port_->repeats() && at.steady - published_ >= kRepeatPeriod;
   if (decided_anew || late || repeats) limitNewest(at, repeats ? Sending::kRepeated : Sending::kIfChanged);
 }
 
-bool CommandCycle::letsThrough(const Instant& at) const {
-  return guard_.permission(inputs(), {at.stamp, at.steady}, at).permission != Permission::kStop;
+bool CommandCycle::letsThrough(const Instant& at) {
+  return port_->permission(inputs(), {at.stamp, at.steady}, at).permission != Permission::kStop;
 }
 
 // A command that is late or repeated is limited again at the next tick.
@@ -126,24 +129,20 @@ bool CommandCycle::onRebase(Trigger::Request& /*request*/, Trigger::Response& re
 
 sweep_guard_core::MotionInputs CommandCycle::inputs(sweep_guard::Proximity::ConstPtr* planes) const {
   sweep_guard_core::MotionInputs inputs = sources_.guard.inputs(planes);
-  inputs.pose = sources_.tool_pose.newest();
+  if (sources_.tool_pose != nullptr) inputs.pose = sources_.tool_pose->newest();
   return inputs;
 }
 
 void CommandCycle::limitNewest(const Instant& at, Sending sending) {
   sweep_guard::Proximity::ConstPtr planes;
   const sweep_guard_core::MotionInputs known = inputs(&planes);
-  if (waitsForRelease(known, at)) return sendZero(at);
   try {
-    sweep_guard_core::MotionCommand command = port_->read(known, cycleAt(at));
-    command.timestamps = *command_;
-    command.period = longestInForce();
-    const sweep_guard_core::GuardedMotion motion = guard_.guard(known, command, at);
-    if (sending != Sending::kIfChanged || port_->isPose() || sent_W_ != motion.twist_W) {
+    const sweep_guard_core::GuardedMotion motion = port_->limit(known, *command_, cycleAt(at));
+    if (sending != Sending::kIfChanged || port_->isPose() || !sent_motion_ || !sendsSame(*sent_motion_, motion)) {
       port_->send(motion, /*again=*/sending != Sending::kNew);
       published_ = at.steady;
     }
-    sent_W_ = motion.twist_W;
+    sent_motion_ = motion;
     permission_ = motion.decision.permission;
     sweep_guard::MotionStatus status = statusOf(motion, planes.get(), port_->standingLead());
     explain(motion.decision.cause, at, status);
@@ -161,7 +160,9 @@ void CommandCycle::explain(PermissionCause cause, const Instant& at, sweep_guard
   std::string why;
   if (cause == PermissionCause::kNoWarning) why = sources_.guard.absence();
   if (cause == PermissionCause::kOldCommand) why = gaps_.tooOld(at);
-  if (cause == PermissionCause::kNoPose || cause == PermissionCause::kPoseSilent) why = sources_.tool_pose.standstill();
+  const bool no_pose = cause == PermissionCause::kNoPose || cause == PermissionCause::kPoseSilent;
+  if (no_pose && sources_.tool_pose != nullptr) why = sources_.tool_pose->standstill();
+  if (cause == PermissionCause::kNoJoints) why = sources_.joints->absence();
   if (!why.empty()) status.text = "stopped: " + why;
 }
 
@@ -170,16 +171,9 @@ CommandPort::Cycle CommandCycle::cycleAt(const Instant& at) const {
   return {at, std::clamp(at.steady - sent_, kShortest, period), period};
 }
 
-// MoveIt Servo, which listens to the scale, takes no other type.
-bool CommandCycle::waitsForRelease(const sweep_guard_core::MotionInputs& known, const Instant& at) const {
-  if (parameters_.command_type != CommandType::kTwistStamped || sources_.hold.released(at.steady)) return false;
-  return guard_.permission(known, *command_, at).permission != Permission::kStop;
-}
-
 void CommandCycle::sendZero(const Instant& at) {
-  guard_.stop(at.steady);
   port_->sendZero(inputs(), cycleAt(at));
-  sent_W_.reset();
+  sent_motion_.reset();
   permission_ = Permission::kStop;
   sent_ = at.steady;
   published_ = at.steady;

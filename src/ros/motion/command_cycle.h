@@ -25,16 +25,15 @@ namespace sweep_guard_ros {
 
 struct CommandCycleSources {
   const GuardInput& guard;
-  const ToolPoseInput& tool_pose;
+  const ToolPoseInput* tool_pose;  ///< null for commands of joints
+  const JointInput* joints;        ///< null for others
   const Frames& frames;
   StatusPublisher& status;
-  const HoldPublisher& hold;
 };
 
 /// Sends what is let through of each command, in the thread that receives it. Between commands, tick() limits the
 /// newest one again if it is late or may no longer be let through, and repeats it each kRepeatPeriod, so that what
-/// follows may stop on a shorter silence than the commands'. When the commands stop, it sends zeros. After a
-/// stop, a stamped twist goes on once HoldPublisher was heard; until then the status stays.
+/// follows may stop on a shorter silence than the commands'. When the commands stop, it sends zeros.
 class CommandCycle {
  public:
   CommandCycle(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const MotionParameters& parameters,
@@ -67,15 +66,13 @@ class CommandCycle {
   ros::ServiceServer advertiseRebase(ros::NodeHandle node);
   bool onRebase(Trigger::Request& request, Trigger::Response& response);
   void update(const sweep_guard_core::Instant& at) REQUIRES(mutex_);
-  bool letsThrough(const sweep_guard_core::Instant& at) const REQUIRES(mutex_);
+  bool letsThrough(const sweep_guard_core::Instant& at) REQUIRES(mutex_);
   sweep_guard_core::Duration longestInForce() const REQUIRES(mutex_);
   CommandPort::Cycle cycleAt(const sweep_guard_core::Instant& at) const REQUIRES(mutex_);
   sweep_guard_core::MotionInputs inputs(sweep_guard::Proximity::ConstPtr* planes = nullptr) const;
   void limitNewest(const sweep_guard_core::Instant& at, Sending sending) REQUIRES(mutex_);
   void explain(sweep_guard_core::PermissionCause cause, const sweep_guard_core::Instant& at,
                sweep_guard::MotionStatus& status) const REQUIRES(mutex_);
-  bool waitsForRelease(const sweep_guard_core::MotionInputs& known, const sweep_guard_core::Instant& at) const
-      REQUIRES(mutex_);
   void sendZero(const sweep_guard_core::Instant& at) REQUIRES(mutex_);
   void halt(const sweep_guard_core::Instant& at) REQUIRES(mutex_);
 
@@ -85,13 +82,12 @@ class CommandCycle {
   sweep_guard_core::InputRecord record_;
   LogThrottle log_;
   mutable sweep_guard_core::Mutex mutex_;  // of what follows
-  sweep_guard_core::MotionGuard guard_ GUARDED_BY(mutex_);
   sweep_guard_core::CommandPeriod period_ GUARDED_BY(mutex_);
   sweep_guard_core::CommandGaps gaps_ GUARDED_BY(mutex_);
   std::optional<sweep_guard_core::Timestamps> command_ GUARDED_BY(mutex_);  // newest one; empty: nothing is to be sent
   sweep_guard_core::Permission permission_ GUARDED_BY(mutex_) =
       sweep_guard_core::Permission::kStop;  // of what was sent last
-  std::optional<sweep_guard_core::Twist> sent_W_
+  std::optional<sweep_guard_core::GuardedMotion> sent_motion_
       GUARDED_BY(mutex_);                                 // for the newest command; empty: zero, for it is refused
   sweep_guard_core::SteadyTime sent_ GUARDED_BY(mutex_);  // or limited anew with the same outcome
   sweep_guard_core::SteadyTime published_ GUARDED_BY(mutex_);

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "ros/motion/command_frames.h"
+#include "ros/motion/joint_port.h"
+#include "sweep_guard/motion/motion_guard.h"
 #include "sweep_guard/motion/pose_follower.h"
 #include "sweep_guard/ros/conversions.h"
 
@@ -20,25 +23,10 @@ using sweep_guard_core::Moved;
 using sweep_guard_core::Time;
 using sweep_guard_core::Twist;
 
-constexpr std::uint32_t kCommandsQueued = 1;  // only the newest counts
-constexpr size_t kMaxCommandMessage = 16384;
-
 const geometry_msgs::Twist& twistOf(const geometry_msgs::Twist& msg) { return msg; }
 const geometry_msgs::Twist& twistOf(const geometry_msgs::TwistStamped& msg) { return msg.twist; }
 geometry_msgs::Twist& twistOf(geometry_msgs::Twist& msg) { return msg; }
 geometry_msgs::Twist& twistOf(geometry_msgs::TwistStamped& msg) { return msg.twist; }
-
-std_msgs::Header headerOf(const geometry_msgs::Twist& /*msg*/) { return {}; }
-template <typename Msg>
-const std_msgs::Header& headerOf(const Msg& msg) {
-  return msg.header;
-}
-
-void stampNow(geometry_msgs::Twist& /*msg*/) {}
-template <typename Msg>
-void stampNow(Msg& msg) {
-  msg.header.stamp = ros::Time::now();
-}
 
 template <typename Msg>
 boost::shared_ptr<Msg> stampedNow(const Msg& msg) {
@@ -49,38 +37,57 @@ boost::shared_ptr<Msg> stampedNow(const Msg& msg) {
 
 Eigen::Vector3d fromXyz(const geometry_msgs::Vector3& v) { return {v.x, v.y, v.z}; }
 
-template <typename Msg>
-sweep_guard_core::Timestamps timestampsOf(const Msg& msg) {
-  const sweep_guard_core::Instant at = now();
-  const Time stamp = fromMsg(headerOf(msg).stamp);
-  return {stamp == Time() ? at.stamp : stamp, at.steady};
-}
-
-template <typename Msg>
-ros::Publisher advertise(ros::NodeHandle node) {
-  return node.advertise<Msg>("guarded_command", 1);
-}
-
-template <typename Msg>
-BoundedSubscriber subscribe(const ros::NodeHandle& node, CommandPort::Receive receive, CommandPort::Refuse refuse) {
-  return subscribeBounded<Msg>(
-      node, {CommandPort::kTopic, kCommandsQueued, kMaxCommandMessage},
-      [receive = std::move(receive)](const ros::MessageEvent<const Msg>& event) {
-        const auto& msg = event.getConstMessage();
-        receive(msg, timestampsOf(*msg));
-      },
-      std::move(refuse));
-}
-
-template <typename Msg>
-class TwistPort : public CommandPort {
+// A command of the tool: limited by where the tool is.
+class ToolPort : public CommandPort {
  public:
-  TwistPort(const ros::NodeHandle& node, const MotionParameters& parameters, const Frames& frames, Receive receive,
-            Refuse refuse)
-      : CommandPort(frames, parameters, advertise<Msg>(node),
-                    subscribe<Msg>(node, std::move(receive), std::move(refuse))),
-        linear_scale_(parameters.linear_scale),
-        angular_scale_(parameters.angular_scale) {}
+  sweep_guard_core::PermissionDecision permission(const MotionInputs& known,
+                                                  const sweep_guard_core::Timestamps& command,
+                                                  const sweep_guard_core::Instant& now) override {
+    return guard_.permission(known, command, now);
+  }
+
+  GuardedMotion limit(const MotionInputs& known, const sweep_guard_core::Timestamps& timestamps,
+                      const Cycle& cycle) override {
+    MotionCommand command = read(known, cycle);
+    command.timestamps = timestamps;
+    command.period = cycle.period;
+    return guard_.guard(known, command, cycle.now);
+  }
+
+  void sendZero(const MotionInputs& known, const Cycle& cycle) override {
+    guard_.stop(cycle.now.steady);
+    sendStandstill(known, cycle);
+  }
+
+ protected:
+  ToolPort(const PortSetup& setup, const Frames& frames, const ros::Publisher& publisher, BoundedSubscriber subscriber)
+      : CommandPort(publisher, std::move(subscriber)),
+        frames_(frames),
+        parameters_(setup.parameters),
+        guard_(setup.parameters.options) {}
+
+  // Reads the newest command. All but its timestamps and `period` is filled in.
+  virtual MotionCommand read(const MotionInputs& known, const Cycle& cycle) = 0;
+  virtual void sendStandstill(const MotionInputs& known, const Cycle& cycle) = 0;
+
+  Eigen::Isometry3d poseOf(const std::string& frame, const std::optional<ToolPose>& tool) const {
+    return commandFramePose(frames_, parameters_, frame, tool);
+  }
+  Eigen::Isometry3d point() const { return newestPose(frames_, parameters_.tool.frame, parameters_.command_point); }
+
+ private:
+  const Frames& frames_;
+  const MotionParameters& parameters_;
+  sweep_guard_core::MotionGuard guard_;
+};
+
+template <typename Msg>
+class TwistPort : public ToolPort {
+ public:
+  TwistPort(const PortSetup& setup, const Frames& frames)
+      : ToolPort(setup, frames, setup.advertise<Msg>(), setup.subscribe<Msg>()),
+        linear_scale_(setup.parameters.linear_scale),
+        angular_scale_(setup.parameters.angular_scale) {}
 
   MotionCommand read(const MotionInputs& known, const Cycle& /*cycle*/) override {
     const geometry_msgs::Twist& msg = twistOf(newest<Msg>());
@@ -103,7 +110,7 @@ class TwistPort : public CommandPort {
     publish(msg);
   }
 
-  void sendZero(const MotionInputs& /*known*/, const Cycle& /*cycle*/) override {
+  void sendStandstill(const MotionInputs& /*known*/, const Cycle& /*cycle*/) override {
     const auto msg = boost::make_shared<Msg>(newest<Msg>());
     twistOf(*msg) = {};
     stampNow(*msg);
@@ -117,15 +124,13 @@ class TwistPort : public CommandPort {
   Twist commanded_W_;
 };
 
-class PosePort : public CommandPort {
+class PosePort : public ToolPort {
  public:
-  PosePort(const ros::NodeHandle& node, const MotionParameters& parameters, const Frames& frames, Receive receive,
-           Refuse refuse)
-      : CommandPort(frames, parameters, advertise<PoseStamped>(node),
-                    subscribe<PoseStamped>(node, std::move(receive), std::move(refuse))),
-        repeats_(!parameters.incremental),
-        silence_(parameters.options.silence),
-        follower_(parameters.leash, parameters.incremental) {}
+  PosePort(const PortSetup& setup, const Frames& frames)
+      : ToolPort(setup, frames, setup.advertise<PoseStamped>(), setup.subscribe<PoseStamped>()),
+        repeats_(!setup.parameters.incremental),
+        silence_(setup.parameters.options.silence),
+        follower_(setup.parameters.leash, setup.parameters.incremental) {}
 
   bool isPose() const override { return true; }
   bool repeats() const override { return repeats_; }
@@ -155,7 +160,7 @@ class PosePort : public CommandPort {
     publishSent(again ? ros::Time::now() : newest<PoseStamped>().header.stamp);
   }
 
-  void sendZero(const MotionInputs& known, const Cycle& cycle) override {
+  void sendStandstill(const MotionInputs& known, const Cycle& cycle) override {
     if (!follower_.begun()) return;
     follow(known, cycle);
     follower_.hold(tool_is_fresh_);
@@ -183,7 +188,7 @@ class PosePort : public CommandPort {
   }
 
   bool passesASurface(const MotionInputs& known) const {
-    if (!known.planes || !known.tool || !belongsTo(*known.planes, *known.tool)) return false;
+    if (known.jointsMoveTool() || !known.planes || !known.tool || !belongsTo(*known.planes, *known.tool)) return false;
     const Eigen::Isometry3d sent_WT = follower_.sent() * X_TP_.inverse();
     return sweep_guard_core::passesASurface(*known.planes, *known.tool, known.pose->X_WT, sent_WT);
   }
@@ -215,20 +220,22 @@ class PosePort : public CommandPort {
 
 }  // namespace
 
-std::unique_ptr<CommandPort> makeCommandPort(const ros::NodeHandle& node, const MotionParameters& parameters,
-                                             const Frames& frames, CommandPort::Receive receive,
-                                             CommandPort::Refuse refuse) {
-  switch (parameters.command_type) {
+sweep_guard_core::Timestamps PortSetup::timestampsOf(const std_msgs::Header& header) {
+  const sweep_guard_core::Instant at = now();
+  const Time stamp = fromMsg(header.stamp);
+  return {stamp == Time() ? at.stamp : stamp, at.steady};
+}
+
+std::unique_ptr<CommandPort> makeCommandPort(const PortSetup& setup, const Frames& frames, const JointInput* joints) {
+  if (joints != nullptr) return makeJointPort(setup, *joints);
+  switch (setup.parameters.command_type) {
     case CommandType::kTwist:
-      return std::make_unique<TwistPort<geometry_msgs::Twist>>(node, parameters, frames, std::move(receive),
-                                                               std::move(refuse));
+      return std::make_unique<TwistPort<geometry_msgs::Twist>>(setup, frames);
     case CommandType::kPoseStamped:
-      return std::make_unique<PosePort>(node, parameters, frames, std::move(receive), std::move(refuse));
-    case CommandType::kTwistStamped:
-      break;
+      return std::make_unique<PosePort>(setup, frames);
+    default:
+      return std::make_unique<TwistPort<geometry_msgs::TwistStamped>>(setup, frames);
   }
-  return std::make_unique<TwistPort<geometry_msgs::TwistStamped>>(node, parameters, frames, std::move(receive),
-                                                                  std::move(refuse));
 }
 
 }  // namespace sweep_guard_ros

@@ -4,6 +4,8 @@
 #include <geometry_msgs/Twist.h>
 #include <geometry_msgs/TwistStamped.h>
 #include <ros/node_handle.h>
+#include <std_msgs/Float64MultiArray.h>
+#include <trajectory_msgs/JointTrajectory.h>
 
 #include <functional>
 #include <memory>
@@ -13,7 +15,8 @@
 #include <variant>
 
 #include "ros/connection/bounded.h"
-#include "ros/motion/command_frames.h"
+#include "ros/motion/joint_input.h"
+#include "ros/motion/joint_jog.h"
 #include "ros/motion/motion_parameters.h"
 #include "sweep_guard/motion/motion_guard.h"
 #include "sweep_guard/prediction/jump.h"
@@ -28,7 +31,8 @@ class CommandPort {
 
   using ToolPose = sweep_guard_core::MotionInputs::ToolPose;
   using Message = std::variant<geometry_msgs::TwistConstPtr, geometry_msgs::TwistStampedConstPtr,
-                               geometry_msgs::PoseStampedConstPtr>;
+                               geometry_msgs::PoseStampedConstPtr, JointJog::ConstPtr,
+                               trajectory_msgs::JointTrajectoryConstPtr, std_msgs::Float64MultiArrayConstPtr>;
   /// Takes a message that was received. A command without a stamp has that of its receipt.
   using Receive = std::function<void(const Message&, const sweep_guard_core::Timestamps&)>;
   using Refuse = std::function<void(const std::string&)>;  ///< takes why a message cannot be read
@@ -49,13 +53,18 @@ class CommandPort {
     sweep_guard_core::Duration period;      ///< longest until something is sent again
   };
 
-  /// Reads the newest command. All but its timestamps and `period` is filled in.
+  /// Returns how much of a command would be let through.
+  virtual sweep_guard_core::PermissionDecision permission(const sweep_guard_core::MotionInputs& known,
+                                                          const sweep_guard_core::Timestamps& command,
+                                                          const sweep_guard_core::Instant& now) = 0;
+  /// Returns what to send for the newest command, and remembers that it was sent.
   /// @throws FrameError, sweep_guard_core::InvalidInput if it cannot be carried out
-  virtual sweep_guard_core::MotionCommand read(const sweep_guard_core::MotionInputs& known, const Cycle& cycle) = 0;
-  /// Publishes what was let through of what read() returned; the message itself if that is everything.
+  virtual sweep_guard_core::GuardedMotion limit(const sweep_guard_core::MotionInputs& known,
+                                                const sweep_guard_core::Timestamps& command, const Cycle& cycle) = 0;
+  /// Publishes what limit() returned; the message itself if that is everything.
   /// @param again  since the command came, it was sent before: it is stamped now
   virtual void send(const sweep_guard_core::GuardedMotion& motion, bool again) = 0;
-  /// Publishes that the tool shall stand still. A pose is published only if one was before.
+  /// Publishes that the tool shall stand still, and remembers it. A pose is published only if one was before.
   virtual void sendZero(const sweep_guard_core::MotionInputs& known, const Cycle& cycle) = 0;
   void stop() { subscriber_.shutdown(); }  ///< no callback begins any more, and none is running
   virtual void pause() {}                  ///< nothing is sent for a while
@@ -70,22 +79,21 @@ class CommandPort {
   std::uint32_t guardedSubscribers() const { return publisher_.getNumSubscribers(); }
 
  protected:
-  CommandPort(const Frames& frames, const MotionParameters& parameters, const ros::Publisher& publisher,
-              BoundedSubscriber subscriber)
-      : frames_(frames), parameters_(parameters), publisher_(publisher), subscriber_(std::move(subscriber)) {}
+  CommandPort(const ros::Publisher& publisher, BoundedSubscriber subscriber)
+      : publisher_(publisher), subscriber_(std::move(subscriber)) {}
 
-  Eigen::Isometry3d poseOf(const std::string& frame, const std::optional<ToolPose>& tool) const {
-    return commandFramePose(frames_, parameters_, frame, tool);
+  template <typename Msg>
+  const boost::shared_ptr<const Msg>& newestPtr() const {
+    return std::get<boost::shared_ptr<const Msg>>(newest_);
   }
-  Eigen::Isometry3d point() const { return newestPose(frames_, parameters_.tool.frame, parameters_.command_point); }
   template <typename Msg>
   const Msg& newest() const {
-    return *std::get<boost::shared_ptr<const Msg>>(newest_);
+    return *newestPtr<Msg>();
   }
   // Shared, so that no nodelet reads a copy.
   template <typename Msg>
   void publishNewest() {
-    publisher_.publish(std::get<boost::shared_ptr<const Msg>>(newest_));
+    publisher_.publish(newestPtr<Msg>());
   }
   template <typename Msg>
   void publish(const boost::shared_ptr<Msg>& msg) {
@@ -93,17 +101,58 @@ class CommandPort {
   }
 
  private:
-  const Frames& frames_;
-  const MotionParameters& parameters_;
   Message newest_;
   ros::Publisher publisher_;
   BoundedSubscriber subscriber_;
 };
 
+/// Returns the header of a command; an empty one if its type has none.
+template <typename Msg>
+std_msgs::Header headerOf(const Msg& msg) {
+  if constexpr (ros::message_traits::HasHeader<Msg>::value) {
+    return msg.header;
+  } else {
+    return {};
+  }
+}
+
+/// Stamps a command, if its type has a stamp.
+template <typename Msg>
+void stampNow(Msg& msg) {
+  if constexpr (ros::message_traits::HasHeader<Msg>::value) msg.header.stamp = ros::Time::now();
+}
+
+/// Where a port listens, and whom it tells.
+struct PortSetup {
+  ros::NodeHandle node;  ///< whose queue calls back
+  const MotionParameters& parameters;
+  CommandPort::Receive receive;
+  CommandPort::Refuse refuse;
+
+  template <typename Msg>
+  ros::Publisher advertise() const {
+    return ros::NodeHandle(node).advertise<Msg>("guarded_command", 1);
+  }
+  template <typename Msg>
+  BoundedSubscriber subscribe() const {
+    return subscribeBounded<Msg>(
+        node, {CommandPort::kTopic, kCommandsQueued, kMaxCommandMessage},
+        [to = receive](const ros::MessageEvent<const Msg>& event) {
+          const auto& msg = event.getConstMessage();
+          to(msg, timestampsOf(headerOf(*msg)));
+        },
+        refuse);
+  }
+
+ private:
+  static constexpr std::uint32_t kCommandsQueued = 1;  // only the newest counts
+  static constexpr size_t kMaxCommandMessage = 16384;
+
+  static sweep_guard_core::Timestamps timestampsOf(const std_msgs::Header& header);
+};
+
 /// Returns the port of command_type.
-/// @param node  its queue calls back
-std::unique_ptr<CommandPort> makeCommandPort(const ros::NodeHandle& node, const MotionParameters& parameters,
-                                             const Frames& frames, CommandPort::Receive receive,
-                                             CommandPort::Refuse refuse);
+/// @param joints  of a robot whose joints are commanded; else null
+std::unique_ptr<CommandPort> makeCommandPort(const PortSetup& setup, const Frames& frames, const JointInput* joints);
 
 }  // namespace sweep_guard_ros

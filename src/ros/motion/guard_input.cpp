@@ -33,6 +33,9 @@ void readPlanes(const sweep_guard::Proximity& msg, sweep_guard_core::SteadyTime 
   planes.X_WT = fromMsg(msg.tool_pose);
   planes.complete = msg.valid;
   planes.tool_revision = msg.tool_revision;
+  if (msg.joints.size() != msg.positions.size()) throw InvalidInput("there is not one position of each joint");
+  planes.joints = msg.joints;
+  planes.positions = msg.positions;
   planes.uncovered = {msg.uncovered_distance, msg.uncovered_speed};
   planes.planes.clear();
   for (const sweep_guard::SeparatingPlane& plane : msg.planes) {
@@ -46,6 +49,7 @@ std::shared_ptr<const sweep_guard_core::ToolBalls> toolFrom(const sweep_guard::T
   tool->revision = msg.revision;
   for (const sweep_guard::ToolPiece& piece : msg.pieces) {
     tool->pieces.emplace_back();
+    tool->frames.push_back(piece.frame);
     for (const sweep_guard::ToolBall& ball : piece.balls) {
       tool->pieces.back().push_back({vectorFrom(ball.center), ball.radius});
     }

@@ -17,16 +17,12 @@ HoldPublisher::HoldPublisher(ros::NodeHandle private_node)
 void HoldPublisher::publish(bool lets_through, sweep_guard_core::SteadyTime now) {
   if (lets_through != lets_through_) changed_ = now;
   lets_through_ = lets_through;
-  send(!lets_through && heard(now));
+  send(!lets_through && (!changed_ || now - *changed_ >= kTimeToHear));
 }
 
 void HoldPublisher::hold() {
   lets_through_ = false;
   send(/*holds=*/true);
-}
-
-bool HoldPublisher::heard(sweep_guard_core::SteadyTime now) const {
-  return !changed_ || now - *changed_ >= kTimeToHear;
 }
 
 void HoldPublisher::send(bool holds) {

@@ -8,10 +8,9 @@
 
 namespace sweep_guard_ros {
 
-/// Publishes for those behind motion_guard whether the guard knows: `~velocity_scale`, 1 or else 0, for MoveIt Servo's
-/// ~internal/collision_velocity_scale, and `~lock`, false or else true, for a lock of twist_mux. Both follow the zero that
-/// motion_guard sends: MoveIt Servo stays halted, until its status is reset, if a scale of 0 meets another command than
-/// zero, and a locked twist_mux would keep the zero back. Not thread-safe.
+/// Publishes for those behind motion_guard whether the guard knows: `~velocity_scale`, 1 or else 0, and `~lock`, false or
+/// else true, for a lock of twist_mux. Both follow the zero that motion_guard sends: a locked twist_mux would keep it back.
+/// Not thread-safe.
 class HoldPublisher {
  public:
   explicit HoldPublisher(ros::NodeHandle private_node);
@@ -20,11 +19,7 @@ class HoldPublisher {
   void publish(bool lets_through, sweep_guard_core::SteadyTime now);
   void hold();  ///< at once
 
-  /// Returns whether those behind motion_guard have had time to hear that it lets commands through.
-  bool released(sweep_guard_core::SteadyTime now) const { return lets_through_ && heard(now); }
-
  private:
-  bool heard(sweep_guard_core::SteadyTime now) const;
   void send(bool holds);
 
   bool lets_through_ = false;

@@ -22,10 +22,14 @@ MotionGuardNode::MotionGuardNode(const ros::NodeHandle& node, const ros::NodeHan
       supervisor_(process),
       frames_(node, kMaxTransforms, [](const std::string& /*parent*/, const std::string& /*child*/) {}),
       guard_(node, parameters_.guard, parameters_.tool),
-      tool_pose_(node, parameters_.tool, frames_),
+      tool_pose_(isOfJoints(parameters_.command_type)
+                     ? nullptr
+                     : std::make_unique<ToolPoseInput>(node, parameters_.tool, frames_)),
+      joints_(tool_pose_ ? nullptr
+                         : std::make_unique<JointInput>(node, parameters_.joint_source, parameters_.options.silence)),
       status_(private_node, parameters_.tool.fixed_frame),
       hold_(private_node),
-      cycle_(node, private_node, parameters_, {guard_, tool_pose_, frames_, status_, hold_}),
+      cycle_(node, private_node, parameters_, {guard_, tool_pose_.get(), joints_.get(), frames_, status_}),
       output_watch_(cycle_.port().guardedTopic()),
       updater_(node, private_node, private_node.getNamespace()) {
   updater_.setHardwareID("none");
@@ -33,7 +37,9 @@ MotionGuardNode::MotionGuardNode(const ros::NodeHandle& node, const ros::NodeHan
   updater_.add("command", [this](DiagnosticsLine& line) { command(line); });
   updater_.add("output", [this](DiagnosticsLine& line) { output(line); });
   updater_.add("guard", [this](DiagnosticsLine& line) { guard_.report(line); });
-  updater_.add("tool pose", [this](DiagnosticsLine& line) { reportPose(tool_pose_, "tool pose", line); });
+  if (tool_pose_)
+    updater_.add("tool pose", [this](DiagnosticsLine& line) { reportPose(*tool_pose_, "tool pose", line); });
+  if (joints_) updater_.add("joints", [this](DiagnosticsLine& line) { joints_->report(line); });
   ticks_.every(CommandCycle::kTickPeriod, [this] { cycle_.tick(); });
   ticks_.every(kHoldPeriod, [this] { cycle_.publishHold(hold_); });
   ticks_.every(kHoldPeriod, [this] { frames_.checkClock(); });
@@ -45,16 +51,17 @@ MotionGuardNode::MotionGuardNode(const ros::NodeHandle& node, const ros::NodeHan
 void MotionGuardNode::start() {
   frames_.start(supervisor_);
   guard_.start(supervisor_);
-  tool_pose_.start(supervisor_);
+  if (tool_pose_) tool_pose_->start(supervisor_);
+  if (joints_) joints_->start(supervisor_);
   cycle_.start(supervisor_);
   ticks_.start(supervisor_, {"ticks", sweep_guard_core::Stage::kPublish});
   reports_.start(supervisor_, {"reports", sweep_guard_core::Stage::kPublish});
   output_watch_.start(supervisor_);
   master_watch_.start(supervisor_);
   supervisor_.start();
-  ROS_INFO("guarding the motion of '%s' in '%s': commands from %s, guarded ones to %s, planes from %s",
-           parameters_.tool.frame.c_str(), parameters_.tool.fixed_frame.c_str(), cycle_.port().commandTopic().c_str(),
-           cycle_.port().guardedTopic().c_str(), parameters_.guard.c_str());
+  ROS_INFO("guarding the motion of %s'%s' in '%s': commands from %s, guarded ones to %s, planes from %s",
+           joints_ ? "the links below " : "", parameters_.tool.frame.c_str(), parameters_.tool.fixed_frame.c_str(),
+           cycle_.port().commandTopic().c_str(), cycle_.port().guardedTopic().c_str(), parameters_.guard.c_str());
 }
 
 MotionGuardNode::~MotionGuardNode() {

@@ -2,12 +2,15 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 
+#include <memory>
+
 #include "ros/connection/master_watch.h"
 #include "ros/input/frames.h"
 #include "ros/motion/command_cycle.h"
 #include "ros/motion/guard_input.h"
 #include "ros/motion/hold_publisher.h"
 #include "ros/motion/input_diagnostics.h"
+#include "ros/motion/joint_input.h"
 #include "ros/motion/motion_parameters.h"
 #include "ros/motion/output_watch.h"
 #include "ros/motion/status_publisher.h"
@@ -42,7 +45,8 @@ class MotionGuardNode {
   Supervisor supervisor_;     // before all threads
   Frames frames_;
   GuardInput guard_;
-  ToolPoseInput tool_pose_;
+  const std::unique_ptr<ToolPoseInput> tool_pose_;  // null for commands of joints
+  const std::unique_ptr<JointInput> joints_;        // null for others
   StatusPublisher status_;
   HoldPublisher hold_;
   CommandCycle cycle_;

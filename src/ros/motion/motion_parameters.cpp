@@ -9,13 +9,17 @@ namespace sweep_guard_ros {
 namespace {
 
 void readCommand(ParameterReader& read, MotionParameters& parameters) {
-  const std::map<std::string, CommandType> types = {{"twist_stamped", CommandType::kTwistStamped},
-                                                    {"twist", CommandType::kTwist},
-                                                    {"pose_stamped", CommandType::kPoseStamped}};
-  parameters.command_type =
-      types.at(read.choice("command_type", "twist_stamped", {"twist_stamped", "twist", "pose_stamped"},
-                           "Type of `command` and `guarded_command`: geometry_msgs/TwistStamped, Twist or "
-                           "PoseStamped."));
+  const std::map<std::string, CommandType> types = {
+      {"twist_stamped", CommandType::kTwistStamped},       {"twist", CommandType::kTwist},
+      {"pose_stamped", CommandType::kPoseStamped},         {"joint_jog", CommandType::kJointJog},
+      {"joint_trajectory", CommandType::kJointTrajectory}, {"joint_velocities", CommandType::kVelocityArray}};
+  parameters.command_type = types.at(
+      read.choice("command_type", "twist_stamped",
+                  {"twist_stamped", "twist", "pose_stamped", "joint_jog", "joint_trajectory", "joint_velocities"},
+                  "Type of `command` and `guarded_command`: geometry_msgs/TwistStamped, Twist or PoseStamped of the "
+                  "tool; or velocities "
+                  "of joints as control_msgs/JointJog, trajectory_msgs/JointTrajectory of one point, or "
+                  "std_msgs/Float64MultiArray."));
   const std::string mode =
       read.choice("command_mode", "absolute", {"absolute", "incremental"},
                   "pose_stamped only. absolute: the tool shall go to the pose, and catches up with what was held back. "
@@ -37,6 +41,21 @@ void readFrames(ParameterReader& read, MotionParameters& parameters) {
   const bool needs_frame = parameters.command_type == CommandType::kTwist && parameters.command_frame.empty();
   if (needs_frame) parameters.command_frame = parameters.tool.fixed_frame;
   if (parameters.command_point.empty()) parameters.command_point = parameters.tool.frame;
+}
+
+void readJoints(ParameterReader& read, MotionParameters& parameters) {
+  parameters.joint_source = readJointSource(read, parameters.tool.frame, isOfJoints(parameters.command_type));
+  parameters.joints =
+      read.texts("joints", "joint_velocities only: names of the joints, in the order of the velocities.");
+  if (parameters.command_type != CommandType::kVelocityArray) return;
+  if (parameters.joints.empty())
+    throw sweep_guard_core::InvalidInput(
+        "command_type is joint_velocities: name the joints, in their order, in joints");
+  for (const std::string& joint : parameters.joints) {
+    if (!parameters.joint_source.names->variable(joint))
+      throw sweep_guard_core::InvalidInput("joints names '" + joint +
+                                           "', which is no joint of the robot that is commanded");
+  }
 }
 
 void readScales(ParameterReader& read, MotionParameters& parameters) {
@@ -96,6 +115,7 @@ MotionParameters loadMotionParameters(const ros::NodeHandle& private_node) {
   MotionParameters parameters;
   readCommand(read, parameters);
   readFrames(read, parameters);
+  readJoints(read, parameters);
   readScales(read, parameters);
   parameters.guard = readGuard(read);
   readTimes(read, parameters);

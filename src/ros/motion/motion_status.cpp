@@ -15,6 +15,13 @@ using sweep_guard_core::Moved;
 using sweep_guard_core::Permission;
 using sweep_guard_core::printable;
 
+// Length of the difference of two unit vectors: the arrow turns by a degree.
+constexpr double kTurned = 0.0175;
+
+bool turned(const geometry_msgs::Vector3& a, const geometry_msgs::Vector3& b) {
+  return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z) > kTurned;
+}
+
 MotionStatus emptyStatus() {
   MotionStatus status;
   status.gap = std::numeric_limits<double>::infinity();
@@ -35,13 +42,16 @@ std::string nearestText(const MotionStatus& status) {
   char gap[32];
   std::snprintf(gap, sizeof gap, "%.1f mm", 1e3 * status.gap);
   const std::string link = status.tool_link.empty() ? "" : " of link '" + status.tool_link + "'";
-  return "'" + status.mesh_id + "', triangle " + std::to_string(status.triangle) + ", " + gap + " in front" + link;
+  return "'" + status.mesh_id + "', triangle " + std::to_string(status.triangle) + ", " + gap + " in front" + link +
+         "; back along the arrow";
 }
 
 std::string textOf(const MotionStatus& status, const sweep_guard_core::PermissionDecision& decision) {
   if (decision.permission == Permission::kStop) return "stopped: " + status.cause;
   if (decision.permission == Permission::kEscape) {
-    return status.cause + (status.sent_speed > 0.0 ? ": escapes slowly" : ": stopped, the command does not lead away");
+    if (status.sent_speed > 0.0) return status.cause + ": escapes slowly";
+    const std::string away = status.mesh_id.empty() ? "" : " from " + nearestText(status);
+    return status.cause + ": stopped, the command does not lead away" + away;
   }
   if (status.code == MotionStatus::NO_WARNING) return "passed on";
   const std::string what = status.code == MotionStatus::HALT_FOR_COLLISION ? "stopped" : "slowed";
@@ -69,7 +79,7 @@ MotionStatus statusOf(const GuardedMotion& motion, const sweep_guard::Proximity*
   MotionStatus status = emptyStatus();
   status.code = codeOf(motion);
   status.cause = sweep_guard_core::textOf(motion.decision.cause);
-  status.scale = motion.scale;
+  status.scale = motion.commanded_speed == 0.0 ? 1.0 : motion.scale;  // zero in place of zero holds nothing back
   status.commanded_speed = motion.commanded_speed;
   status.sent_speed = motion.sent_speed;
   if (planes != nullptr) status.planes_age = sweep_guard_core::toSeconds(motion.planes_age);
@@ -78,6 +88,8 @@ MotionStatus statusOf(const GuardedMotion& motion, const sweep_guard::Proximity*
     status.mesh_id = printable(plane.mesh_id);
     status.triangle = plane.triangle;
     status.tool_link = printable(plane.tool_link);
+    status.piece = plane.piece;
+    status.normal = plane.normal;
     status.gap = motion.limiting->gap;
   }
   status.text = textOf(status, motion.decision);
@@ -102,8 +114,8 @@ MotionStatus idleStatus(const sweep_guard_core::PermissionDecision& decision) {
 
 bool differ(const MotionStatus& a, const MotionStatus& b) {
   return a.code != b.code || a.cause != b.cause || a.scale != b.scale || a.mesh_id != b.mesh_id ||
-         a.triangle != b.triangle || a.tool_link != b.tool_link || a.gap != b.gap ||
-         (a.code == MotionStatus::INVALID && a.text != b.text);
+         a.triangle != b.triangle || a.tool_link != b.tool_link || a.piece != b.piece || a.gap != b.gap ||
+         turned(a.normal, b.normal) || (a.code == MotionStatus::INVALID && a.text != b.text);
 }
 
 }  // namespace sweep_guard_ros

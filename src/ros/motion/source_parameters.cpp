@@ -1,5 +1,7 @@
 #include "ros/motion/source_parameters.h"
 
+#include "ros/tool/tool_model.h"
+
 namespace sweep_guard_ros {
 
 PoseSource readPoseSource(ParameterReader& read) {
@@ -11,6 +13,27 @@ PoseSource readPoseSource(ParameterReader& read) {
   tool.source = source == "tf" ? ToolSource::kTf : ToolSource::kTopic;
   tool.frame = read.name("tool_frame", "tool", "tf frame of the tool: as that of the guard.");
   return tool;
+}
+
+JointSource readJointSource(ParameterReader& read, const std::string& tool_frame, bool needed) {
+  const std::string description = read.name("tool/robot_description", "robot_description",
+                                            "Joints only: name of the parameter that holds the URDF, searched from the "
+                                            "node's namespace upwards.");
+  read.ignore(description);
+  const auto renamed =
+      read.textsByName("tool/joint_names",
+                       "Joints only: names of joints in the robot description, by their names in messages, where these "
+                       "differ: as those of the guard.");
+  if (!needed) return {};
+  const std::string urdf = read.searchText(description);
+  if (urdf.empty()) {
+    throw sweep_guard_core::InvalidInput("there is no robot description in the parameter '" + description +
+                                         "': load one, or name it in tool/robot_description");
+  }
+  JointSource joints;
+  joints.tree = std::make_shared<const sweep_guard_core::KinematicTree>(loadTree(urdf, tool_frame));
+  joints.names = std::make_shared<const JointNames>(*joints.tree, fixedPositions(*joints.tree, {}), renamed);
+  return joints;
 }
 
 std::string readGuard(ParameterReader& read) {

@@ -19,7 +19,7 @@ class ProximityPublisher {
                      const sweep_guard_core::WarningMonitor& monitor);
 
   /// Publishes the tool that the next planes refer to.
-  void setTool(const sweep_guard_core::Tool& tool);
+  void setTool(const Parameters& parameters);
 
   /// Computes and publishes the planes, if there is a subscriber and a reach.
   /// @param report  of the sweep to the pose

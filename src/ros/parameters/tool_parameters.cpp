@@ -167,7 +167,7 @@ void readTool(ParameterReader& read, const Parameters* before, Parameters& param
   const bool joint_states = read.flag(
       "tool/joint_states", false,
       "urdf only: joints of the tool move, and `joint_states` says how. tool_frame must be a link that none of "
-      "them moves. Implied by tool_source joint_states. ~proximity is silent then.");
+      "them moves. Implied by tool_source joint_states.");
   parameters.joint_names = read.textsByName(
       "tool/joint_names",
       "urdf only: names of joints in the robot description, by their names in `joint_states`, where these differ: "

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "ros/connection/sole_publisher.h"
 #include "ros/merger/heard_warning.h"
 #include "ros/motion/absent_guard.h"
 #include "sweep_guard/common/error.h"
@@ -18,6 +19,7 @@ constexpr auto kTickPeriod = std::chrono::milliseconds(10);
 constexpr auto kAhead = std::chrono::milliseconds(40);  // of the sound
 constexpr auto kStartPeriod = std::chrono::seconds(2);
 constexpr auto kReportPeriod = std::chrono::seconds(1);
+constexpr auto kMotionSilence = std::chrono::milliseconds(300);  // three periods of the status
 
 std::vector<std::string> readCommand(ParameterReader& read) {
   std::vector<std::string> command = read.texts("player");
@@ -36,20 +38,23 @@ EarconNode::EarconNode(const ros::NodeHandle& node, const ros::NodeHandle& priva
       supervisor_(Process::kOwn),
       command_(readCommand(read)),
       clear_tick_(read.flag("clear_tick", true)),
-      volume_(read.number("volume", 1.0, {0.0, 1.0})),
       warning_({node.resolveName("warning")}),
-      synthesizer_(kRate),
+      rumble_(private_node, read.integer("rumble/id", 0, 0, 255), read.number("rumble/intensity", 1.0, {0.0, 1.0})),
+      synthesizer_(kRate, read.number("volume", 1.0, {0.0, 1.0})),
       updater_(node, private_node, private_node.getNamespace()) {
   read.number("diagnostic_period", 1.0, {0.0, std::numeric_limits<double>::infinity()});  // set by diagnostic_updater
   read.warnOfUnread();
   settings_ = read.settings();
   updater_.setHardwareID("none");
   updater_.add("sound", [this](Status& status) { report(status); });
-  subscriber_ = subscribeToWarning(
-      thread_.on(node), "warning", [this](const sweep_guard::Warning& message) { hear(message); },
-      [this, topic = warning_.guards().front()](const std::string& reason) {
-        log_.error("refused", "message on " + topic + " refused: " + reason);
-      });
+  subscriber_ = subscribeToSole<sweep_guard::Warning>(
+      thread_.on(node), "warning", sweep_guard_core::kWarningValid,
+      [this](const sweep_guard::Warning& message) { hear(message); },
+      [this, topic = warning_.guards().front()](const std::string& reason) { refuse(topic, reason); });
+  motion_subscriber_ = subscribeToSole<sweep_guard::MotionStatus>(
+      thread_.on(node), "motion_status", kMotionSilence,
+      [this](const sweep_guard::MotionStatus& message) { hear(message); },
+      [this, topic = node.resolveName("motion_status")](const std::string& reason) { refuse(topic, reason); });
   sound_.every(kTickPeriod, [this] { sound(); });
   reports_.every(kReportPeriod, [this] { updater_.force_update(); });
 }
@@ -74,16 +79,31 @@ void EarconNode::hear(const sweep_guard::Warning& message) {
   warning_.hear(0, std::move(warning));
 }
 
+void EarconNode::hear(const sweep_guard::MotionStatus& status) {
+  const bool holds = status.code != sweep_guard::MotionStatus::NO_WARNING && status.scale < 1.0;
+  const sweep_guard_core::Lock lock(mutex_);
+  held_ = holds ? std::min(1.0, 1.0 - status.scale) : 0.0;
+  motion_heard_ = std::chrono::steady_clock::now();
+}
+
+void EarconNode::refuse(const std::string& topic, const std::string& reason) {
+  log_.error("refused " + topic, "message on " + topic + " refused: " + reason);
+}
+
 // A player that has ended is started again: a sound card may come back.
 void EarconNode::sound() {
+  const sweep_guard_core::Instant at = now();
   sweep_guard_core::MergedWarning merged;
+  double held = 0.0;
   {
     const sweep_guard_core::Lock lock(mutex_);
-    merged = warning_.merged(now());
+    merged = warning_.merged(at);
+    if (at.steady - motion_heard_ <= kMotionSilence) held = held_;
   }
+  rumble_.update(held, at.steady);
   std::string problem;
   try {
-    play(merged);
+    play(merged, held);
   } catch (const sweep_guard_core::DeviceError& error) {
     player_.reset();
     problem = error.what();
@@ -94,7 +114,7 @@ void EarconNode::sound() {
   if (player_ || !problem.empty()) problem_ = problem;
 }
 
-void EarconNode::play(const sweep_guard_core::MergedWarning& warning) {
+void EarconNode::play(const sweep_guard_core::MergedWarning& warning, double held) {
   const sweep_guard_core::SteadyTime at = std::chrono::steady_clock::now();
   if (!player_) {
     if (at < next_start_) return;
@@ -104,12 +124,10 @@ void EarconNode::play(const sweep_guard_core::MergedWarning& warning) {
     played_until_ = at;
   }
   played_until_ = std::max(played_until_, at);
-  sweep_guard_core::Earcon earcon = earconOf(warning, clear_tick_);
-  earcon.amplitude *= volume_;
   const double missing = sweep_guard_core::toSeconds(at + kAhead - played_until_);
   if (samples_.empty() && missing > 0.0) {
     const auto count = static_cast<size_t>(missing * synthesizer_.rate());
-    synthesizer_.render(earcon, count, samples_);
+    synthesizer_.render(earconOf(warning, clear_tick_), count, samples_, sweep_guard_core::heldEarcon(held));
     played_until_ += sweep_guard_core::fromSeconds(static_cast<double>(count) / synthesizer_.rate());
   }
   const size_t taken = player_->play(samples_);

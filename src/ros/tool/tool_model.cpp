@@ -247,6 +247,13 @@ ToolModel loadToolModel(const std::string& urdf, const ToolModelOptions& options
   return model;
 }
 
+sweep_guard_core::KinematicTree loadTree(const std::string& urdf, const std::string& frame) {
+  const RobotDescription robot(urdf);
+  const urdf::Link* const named = robot.link(frame);
+  const urdf::Link& link = named != nullptr ? *named : linkNamed(robot, withoutPrefix(frame), "tool_frame");
+  return treeOf(robot, link, RobotDescription::subtree(link)).tree;
+}
+
 std::map<std::string, Pieces> loadLinks(const std::string& urdf, const ToolModelOptions& options) {
   const RobotDescription robot(urdf, options.geometry);
   std::map<std::string, Pieces> links;

@@ -66,6 +66,11 @@ ToolModel loadToolModel(const std::string& urdf, const ToolModelOptions& options
 std::map<std::string, std::vector<sweep_guard_core::ConvexPiece>> loadLinks(const std::string& urdf,
                                                                             const ToolModelOptions& options);
 
+/// Returns the links below a frame and the joints that move them; its root is the link of the frame.
+/// @param frame  a link, maybe with a prefix before a slash
+/// @throws sweep_guard_core::InvalidInput as loadToolModel()
+sweep_guard_core::KinematicTree loadTree(const std::string& urdf, const std::string& frame);
+
 /// Returns the pieces of all bodies in their order, in the tool frame, at RobotModel::positions.
 std::vector<sweep_guard_core::ConvexPiece> piecesByBody(const RobotModel& model);
 

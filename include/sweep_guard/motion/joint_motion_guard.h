@@ -1,0 +1,88 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "sweep_guard/common/time.h"
+#include "sweep_guard/kinematics/robot_motion.h"
+#include "sweep_guard/motion/motion_guard.h"
+#include "sweep_guard/motion/moving_tool.h"
+
+namespace sweep_guard_core {
+
+/// A commanded velocity of the joints of a robot.
+struct JointCommand {
+  Eigen::VectorXd velocities;  ///< of each variable of the tree [rad/s or m/s]; 0: the joint is at rest
+  Timestamps timestamps;       ///< without a stamp of its own, that of its receipt
+  Duration period{};           ///< until the next command, > 0
+};
+
+/// The joints of a robot as they were measured.
+struct MeasuredJoints {
+  RobotState state;       ///< without positions: none have arrived yet
+  Timestamps timestamps;  ///< of the oldest position
+};
+
+/// Limits commanded velocities of joints so that every point of every link can stop before the surfaces around it. The
+/// command is scaled as a whole, so that the path does not bend. One thread at a time. After the first calls it allocates
+/// nothing.
+class JointMotionGuard {
+ public:
+  /// @param tree  of all links that planes name, and maybe more; its root is the tool frame
+  /// @throws InvalidInput  if an option is NaN or out of range
+  JointMotionGuard(const MotionGuardOptions& options, std::shared_ptr<const KinematicTree> tree);
+
+  /// Returns what to send for a command, and remembers that it was sent: `scale` is the share of it, bit for bit 1 if nothing
+  /// limits it; `twist_W` has no meaning. `limiting` is the plane that sets the scale.
+  /// @param inputs  without a pose; the balls' frames are links of the tree
+  /// @param now     not before that of the last call
+  /// @throws InvalidInput  if the command, the joints or the planes are not finite or out of range, or not of the tree, or if a
+  ///     joint shall move that the planes do not name; then stop() has to be sent
+  GuardedMotion guard(const MotionInputs& inputs, const MeasuredJoints& joints, const JointCommand& command,
+                      const Instant& now);
+
+  /// Decides how much of a command is let through, as guard() does, and remembers nothing.
+  /// @param command  without a stamp of its own, that of its receipt
+  PermissionDecision permission(const MotionInputs& inputs, const MeasuredJoints& joints, const Timestamps& command,
+                                const Instant& now) const;
+
+  /// Remembers that zero was sent.
+  void stop(SteadyTime now);
+
+  const MotionGuardOptions& options() const { return options_; }
+
+ private:
+  // One ball before its plane, in one state.
+  struct Row {
+    FacingBall ball;
+    size_t plane;
+    double closing;       // by the command [m/s]
+    double acceleration;  // [m/s^2]
+  };
+
+  void placeExpectedAndSwept(const MotionInputs& inputs, const MeasuredJoints& joints, const JointCommand& command,
+                             const BrakingLimits& limits, const Instant& now);
+  void limit(const MotionInputs& inputs, const BrakingLimits& limits, GuardedMotion& motion);
+  void requireGuarded(const PlaneSet& planes, const JointCommand& command) const;
+  void requireAgreement(const MotionInputs& inputs);
+  UncoveredSurfaces uncovered(const MotionInputs& inputs, const BrakingLimits& limits) const;
+  void collectRows(const MotionInputs& inputs, const MovingTool& state);
+  double scaleByPlanes(const BrakingLimits& limits, double tolerance,
+                       std::optional<GuardedMotion::Limiting>& limiting) const;
+  void stopUnlessEveryGapOpens(const BrakingLimits& limits, GuardedMotion& motion) const;
+
+  const MotionGuardOptions options_;
+  const std::shared_ptr<const KinematicTree> tree_;
+  MotionInFlight in_flight_;
+  RobotState state_;  // expected, then swept
+  Eigen::VectorXd velocities_;
+  MovingTool swept_;
+  MovingTool measured_;
+  MovingTool expected_;
+  std::vector<FacingBall> facing_;
+  std::vector<Row> rows_;
+};
+
+}  // namespace sweep_guard_core
