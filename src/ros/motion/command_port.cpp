@@ -30,7 +30,7 @@ geometry_msgs::Twist& twistOf(geometry_msgs::TwistStamped& msg) { return msg.twi
 
 template <typename Msg>
 boost::shared_ptr<Msg> stampedNow(const Msg& msg) {
-  const auto stamped = boost::make_shared<Msg>(msg);
+  auto stamped = boost::make_shared<Msg>(msg);
   stampNow(*stamped);
   return stamped;
 }
