@@ -152,6 +152,7 @@ TEST_F(DiagnosticsTest, SayWhichTransformOfAWorkpieceIsRefused) {
   for (const auto& [length, value] : {std::pair{0.5, "0.5) is 0.5"}, {0.0, "0) is 0"}, {1.3, "1.3) is 1.3"}}) {
     probe().tick(0.01);
     probe().publish(poseAt(kAway, probe().time()));  // from then on, the frame counts
+    probe().awaitWarning(hasReason(Warning::TF_FAIL));
     (*publisher).publish(transformOfLength("bench", length));
     probe().awaitWarning([&, refused = value](const Warning& warning) {
       return hasReason(Warning::TF_FAIL)(warning) && has(warning.text, "transform to 'bench' from node '") &&
