@@ -135,7 +135,7 @@ void JointMotionGuard::limit(const MotionInputs& inputs, const BrakingLimits& li
   collectRows(inputs, expected_);
   const double fastest = std::max(measured_.fastest(), expected_.fastest());
   const double by_planes = scaleByPlanes(limits, kJointRounding * fastest, motion.limiting);
-  double allowed = allowedSpeed(uncovered(inputs, limits), limits);
+  double allowed = allowedSpeed(uncovered(inputs), limits);
   const bool escapes = motion.decision.permission == Permission::kEscape;
   if (escapes) allowed = std::min(allowed, options_.escape_speed);
   if (motion.decision.cause == PermissionCause::kUnseen) allowed = std::min(allowed, options_.unseen_speed);
@@ -146,14 +146,12 @@ void JointMotionGuard::limit(const MotionInputs& inputs, const BrakingLimits& li
   motion.sent_speed = motion.scale * motion.commanded_speed;
 }
 
-// Planes are carried by the newest state. A distance as a whole cannot be: any point may have come nearer. Along an arc, a
-// point may also become faster than it is now.
-UncoveredSurfaces JointMotionGuard::uncovered(const MotionInputs& inputs, const BrakingLimits& limits) const {
+// Planes are carried by the newest state. A distance as a whole cannot be: any point may have come nearer.
+UncoveredSurfaces JointMotionGuard::uncovered(const MotionInputs& inputs) const {
   UncoveredSurfaces uncovered = inputs.planes->uncovered;
   requireUsable(uncovered);
   uncovered.distance -= std::max(measured_.largestDisplacement(swept_, *inputs.tool),
                                  expected_.largestDisplacement(swept_, *inputs.tool));
-  uncovered.speed += limits.reaction_time * std::max(measured_.largestAcceleration(), expected_.largestAcceleration());
   return uncovered;
 }
 

@@ -39,7 +39,7 @@ void MovingTool::place(const RobotState& state, const ToolBalls& tool, const Eig
   tree_->poses(state.positions, X_RL_);
   pieces_.clear();
   balls_.clear();
-  fastest_ = largest_acceleration_ = 0.0;
+  fastest_ = 0.0;
   for (size_t i = 0; i < tool.pieces.size(); ++i) {
     const size_t link = linkOf(tool, i, *tree_).value();
     const Eigen::Isometry3d X_WL = state.X_WR * poseOf(link, X_RL_);
@@ -50,7 +50,6 @@ void MovingTool::place(const RobotState& state, const ToolBalls& tool, const Eig
       const double until_rest = limits.reaction_time + speed / limits.deceleration;
       balls_.push_back({X_WL * ball.center_T, speed, accelerationOf(link, ball.center_T, velocities, until_rest)});
       fastest_ = std::max(fastest_, speed);
-      largest_acceleration_ = std::max(largest_acceleration_, balls_.back().acceleration);
     }
   }
 }

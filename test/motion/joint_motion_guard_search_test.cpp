@@ -64,7 +64,6 @@ TEST(JointMotionGuardSearchTest, TheScaleIsTheLargestThatNoBallClosesFasterThanI
     MovingTool swept(arm.tree);
     swept.place(arm.joints.state, *arm.inputs.tool, arm.command.velocities, limits);
     double fastest = 0.0;
-    double acceleration = 0.0;
     double way = 0.0;
     for (const RobotState& state : {arm.joints.state, expected}) {
       for (const OracleRow& row : rowsOf(arm, state, limits)) {
@@ -74,12 +73,10 @@ TEST(JointMotionGuardSearchTest, TheScaleIsTheLargestThatNoBallClosesFasterThanI
       MovingTool tool(arm.tree);
       tool.place(state, *arm.inputs.tool, arm.command.velocities, limits);
       fastest = std::max(fastest, tool.fastest());
-      acceleration = std::max(acceleration, tool.largestAcceleration());
       way = tool.largestDisplacement(swept, *arm.inputs.tool);
     }
     UncoveredSurfaces uncovered = arm.inputs.planes->uncovered;
     uncovered.distance -= way;
-    uncovered.speed += limits.reaction_time * acceleration;
     EXPECT_LE(scale * fastest, allowedSpeed(uncovered, limits) + 1e-9);
     more_is_too_much = more_is_too_much || (scale + 1e-6) * fastest > allowedSpeed(uncovered, limits) - 1e-9;
     EXPECT_TRUE(more_is_too_much) << i << ": " << scale;

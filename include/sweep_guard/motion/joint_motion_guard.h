@@ -67,7 +67,7 @@ class JointMotionGuard {
   void limit(const MotionInputs& inputs, const BrakingLimits& limits, GuardedMotion& motion);
   void requireGuarded(const PlaneSet& planes, const JointCommand& command) const;
   void requireAgreement(const MotionInputs& inputs);
-  UncoveredSurfaces uncovered(const MotionInputs& inputs, const BrakingLimits& limits) const;
+  UncoveredSurfaces uncovered(const MotionInputs& inputs) const;
   void collectRows(const MotionInputs& inputs, const MovingTool& state);
   double scaleByPlanes(const BrakingLimits& limits, double tolerance,
                        std::optional<GuardedMotion::Limiting>& limiting) const;

@@ -50,8 +50,7 @@ class MovingTool {
 
   const std::vector<Piece>& pieces() const { return pieces_; }
   const std::vector<Ball>& balls() const { return balls_; }
-  double fastest() const { return fastest_; }                           ///< speed of the fastest point [m/s]
-  double largestAcceleration() const { return largest_acceleration_; }  ///< of all balls [m/s^2]
+  double fastest() const { return fastest_; }  ///< speed of the fastest point [m/s]
 
   /// Returns an upper bound on the displacement of any tool point from another state [m].
   double largestDisplacement(const MovingTool& from, const ToolBalls& tool) const;
@@ -67,7 +66,6 @@ class MovingTool {
   std::vector<Piece> pieces_;
   std::vector<Ball> balls_;
   double fastest_ = 0.0;
-  double largest_acceleration_ = 0.0;
 };
 
 }  // namespace sweep_guard_core
