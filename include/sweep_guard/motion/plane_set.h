@@ -28,7 +28,7 @@ struct PlaneSet {
 struct ToolBalls {
   std::uint32_t revision = 0;                 ///< another one for each tool, and in each run of the guard
   std::vector<std::vector<ToolBall>> pieces;  ///< in the frame of their body
-  std::vector<std::string> frames = {};       ///< of each piece: link of that frame; empty: the tool frame
+  std::vector<std::string> frames = {};       ///< of each piece: link whose frame it is; empty: the tool frame
 };
 
 /// Returns an upper bound on the distance of any tool point from `p_T` [m].
