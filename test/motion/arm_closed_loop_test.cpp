@@ -21,6 +21,7 @@ constexpr double kMaxSpeed = 0.5;   // of the hand [m/s]
 constexpr double kMaxTurn = 1.0;    // of the hand [rad/s]
 constexpr double kMaxJoint = 1.5;   // [rad/s]
 constexpr double kDamping = 0.05;   // of the inverse kinematics
+constexpr double kAway = 0.01;      // least share of a retreat's speed along the normal
 constexpr double kFirstGap = 0.03;  // least gap where an episode begins [m]
 
 struct HandPose {
@@ -131,8 +132,8 @@ std::optional<SentSurface> obstacleOn(const CapsuleArm& arm, const Path& path, R
   return {};
 }
 
-// Returns whether a motion brings no axis and no ball of any capsule nearer to the obstacle.
-bool opensEveryGap(const ArmScene& scene, const std::vector<double>& positions, const VectorXd& velocities) {
+// Returns whether a motion leads each axis and each ball of any capsule away from the obstacle, rather than along it.
+bool leadsAway(const ArmScene& scene, const std::vector<double>& positions, const VectorXd& velocities) {
   const auto X_WL = scene.linksAt(positions);
   for (size_t link = 0; link < X_WL.size(); ++link) {
     for (const Capsule& capsule_L : scene.arm().capsules[link]) {
@@ -141,7 +142,8 @@ bool opensEveryGap(const ArmScene& scene, const std::vector<double>& positions, 
            {capsule, Capsule{capsule.from, capsule.from, 0.0}, Capsule{capsule.to, capsule.to, 0.0}}) {
         const NearestPair nearest = scene.nearestOf(of);
         const VectorXd velocity = jacobianOf(scene, positions, link, nearest.on_segment).topRows(3) * velocities;
-        if ((nearest.on_segment - nearest.on_surface).normalized().dot(Vector3d(velocity)) < -1e-12) return false;
+        const Vector3d normal = (nearest.on_segment - nearest.on_surface).normalized();
+        if (normal.dot(Vector3d(velocity)) < kAway * velocity.norm() - 1e-12) return false;
       }
     }
   }
@@ -178,12 +180,12 @@ struct Figures {
   size_t free_changed = 0;
 };
 
-// Until a command that does not open every gap.
+// Until a command that does not lead away.
 void retreat(ArmLoop loop, const std::vector<VectorXd>& commands, Figures& figures) {
   double kept = 1.0;
   int count = 0;
   for (const VectorXd& command : commands) {
-    if (!opensEveryGap(loop.scene(), loop.positions(), command)) break;
+    if (!leadsAway(loop.scene(), loop.positions(), command)) break;
     kept = std::min(kept, loop.run(command).scale);
     ++count;
   }
@@ -207,7 +209,7 @@ void retreatFrom(const ArmLoop& held, const std::vector<VectorXd>& came, Random&
   retreat(held, back, figures);
   for (int tries = 0, found = 0; tries < 300 && found < 4; ++tries) {
     const VectorXd velocities = velocitiesOf(*held.scene().arm().tree, random, 0.5);
-    if (velocities.isZero() || !opensEveryGap(held.scene(), held.positions(), velocities)) continue;
+    if (velocities.isZero() || !leadsAway(held.scene(), held.positions(), velocities)) continue;
     retreat(held, speedUp(velocities), figures);
     ++found;
   }
@@ -294,7 +296,7 @@ TEST(ArmClosedLoopTest, NoLinkRunsIntoWhatItRunsIntoWithoutTheGuard) {
   RecordProperty("free_changed", static_cast<int>(figures.free_changed));
   EXPECT_GT(figures.met, figures.placements / 2);
   EXPECT_GT(figures.least_gap, ArmLoop::options().standoff - 1e-4);
-  EXPECT_LE(figures.slowed, figures.retreats / 1000);
+  EXPECT_EQ(figures.slowed, 0);
   EXPECT_GT(figures.free_commands, 0U);
   EXPECT_EQ(figures.free_changed, 0U);
 }
