@@ -28,6 +28,12 @@ class ErrorModel {
   void observe(const MotionTracker<Space>& tracker, const Vector& velocity,
                const PredictedDisplacements<Space>& predicted);
 
+  /// Forgets the predictions whose errors are not known yet, and keeps what was learned.
+  void interrupt();
+
+  /// Returns how many of the newest errors within 0.1 s, in a row, exceed three standard deviations.
+  int outliers() const { return outliers_; }
+
   /// Returns the covariance of the error of what is predicted. Of a pose: translation [m], then rotation vector [rad],
   /// both along the axes of W.
   /// @param ahead  time after the newest pose [s], > 0
@@ -46,7 +52,10 @@ class ErrorModel {
   /// Returns the error within kLearnedHorizons[horizon], relative to the displacement at the current speed.
   Squares share(size_t horizon) const;
 
+  bool isOutlier(const Features& features, size_t horizon, const Squares& error) const;
+
   DelayedTargets<Space, Features> targets_;
+  int outliers_ = 0;
   // For each of kLearnedHorizons: the errors, and the squared speed at the time of the errors.
   std::vector<ExponentialMovingAverage<Squares>> errors_;
   std::vector<ExponentialMovingAverage<Squares>> activities_;
