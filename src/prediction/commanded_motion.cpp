@@ -5,7 +5,7 @@ namespace {
 
 constexpr Duration kLeadTime = std::chrono::milliseconds(100);
 constexpr Duration kDistrust = std::chrono::seconds(1);
-constexpr int kMaxOutliers = 3;  // in a row
+constexpr int kMaxMisled = 3;  // samples in a row
 
 }  // namespace
 
@@ -41,12 +41,13 @@ void CommandedMotion<Space>::interrupt() {
   commands_.interrupt();
   learner_.interrupt();
   errors_.interrupt();
+  misled_ = 0;
   in_use_ = false;
 }
 
 template <typename Space>
 void CommandedMotion<Space>::observe(const MotionTracker<Space>& measured, const Regressors<Space>& regressors,
-                                     const Vector& velocity) {
+                                     const Vector& velocity, const ErrorModel<Space>& errors) {
   newest_ = measured.newest();
   if (commands_.isSilentAt(newest_.stamp)) return interrupt();
   Regressors<Space, kCommandRegressors> all;
@@ -55,7 +56,8 @@ void CommandedMotion<Space>::observe(const MotionTracker<Space>& measured, const
   PredictedDisplacements<Space> predicted;
   for (size_t i = 0; i < predicted.size(); ++i) predicted[i] = displacementIn(kLearnedHorizons[i]);
   errors_.observe(measured, velocity, predicted);
-  if (errors_.outliers() >= kMaxOutliers) unused_until_ = newest_.stamp + kDistrust;
+  misled_ = errors_.misleads(errors) ? misled_ + 1 : 0;
+  if (misled_ >= kMaxMisled) unused_until_ = newest_.stamp + kDistrust;
   in_use_ = newest_.stamp >= unused_until_;
 }
 

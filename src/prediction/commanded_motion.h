@@ -34,7 +34,9 @@ class CommandedMotion {
   /// Adds the newest sample of the measured motion.
   /// @param regressors  of the measured motion, there
   /// @param velocity    as Velocity measures it
-  void observe(const MotionTracker<Space>& tracker, const Regressors<Space>& regressors, const Vector& velocity);
+  /// @param errors      of what is predicted without the command
+  void observe(const MotionTracker<Space>& tracker, const Regressors<Space>& regressors, const Vector& velocity,
+               const ErrorModel<Space>& errors);
 
   /// Forgets the commands, and keeps what was learned of the robot.
   void interrupt();
@@ -68,7 +70,8 @@ class CommandedMotion {
   boost::circular_buffer<Lead> leads_{64};                   // of the last 0.1 s
   DisplacementLearner<Space, kCommandRegressors> learner_;
   ErrorModel<Space> errors_;
-  Sample newest_;  // measured
+  Sample newest_;   // measured
+  int misled_ = 0;  // samples in a row
   Time unused_until_;
   bool in_use_ = false;
 };

@@ -76,7 +76,10 @@ void ErrorModel<Space>::observe(const MotionTracker<Space>& tracker, const Vecto
   if (tracker.step() != Step::kContinues) return;
   targets_.add(tracker.newest(), newest, [&](const Features& features, size_t i, const Vector& moved) {
     const Squares error = squares(errorOf<Space>(features.predicted[i], moved), features.direction);
-    if (i == kJudged) outliers_ = isOutlier(features, i, error) ? outliers_ + 1 : 0;
+    if (i == kJudged) {
+      newest_ = error;
+      limit_ = 9.0 * (kLearnedHorizons[i] * share(i)).square() * features.activity;
+    }
     errors_[i].add(error, period);
     const auto speed = [&](const Vector& displacement) {
       return speedSquares(Vector(displacement / kLearnedHorizons[i]));
@@ -88,13 +91,7 @@ void ErrorModel<Space>::observe(const MotionTracker<Space>& tracker, const Vecto
 template <typename Space>
 void ErrorModel<Space>::interrupt() {
   targets_.clear();
-  outliers_ = 0;
-}
-
-template <typename Space>
-bool ErrorModel<Space>::isOutlier(const Features& features, size_t horizon, const Squares& error) const {
-  const Squares variance = (kLearnedHorizons[horizon] * share(horizon)).square() * features.activity;
-  return (error > 9.0 * variance).any();
+  newest_.setZero();
 }
 
 template <typename Space>

@@ -31,8 +31,8 @@ class ErrorModel {
   /// Forgets the predictions whose errors are not known yet, and keeps what was learned.
   void interrupt();
 
-  /// Returns how many of the newest errors within 0.1 s, in a row, exceed three standard deviations.
-  int outliers() const { return outliers_; }
+  /// Returns whether the newest error within 0.1 s exceeds three standard deviations, and that of another model.
+  bool misleads(const ErrorModel& other) const { return (newest_ > limit_ && newest_ > other.newest_).any(); }
 
   /// Returns the covariance of the error of what is predicted. Of a pose: translation [m], then rotation vector [rad],
   /// both along the axes of W.
@@ -52,10 +52,9 @@ class ErrorModel {
   /// Returns the error within kLearnedHorizons[horizon], relative to the displacement at the current speed.
   Squares share(size_t horizon) const;
 
-  bool isOutlier(const Features& features, size_t horizon, const Squares& error) const;
-
   DelayedTargets<Space, Features> targets_;
-  int outliers_ = 0;
+  Squares newest_ = Squares::Zero();  // error within 0.1 s
+  Squares limit_ = Squares::Zero();   // nine variances of it
   // For each of kLearnedHorizons: the errors, and the squared speed at the time of the errors.
   std::vector<ExponentialMovingAverage<Squares>> errors_;
   std::vector<ExponentialMovingAverage<Squares>> activities_;

@@ -35,7 +35,7 @@ void MotionChannel<Space>::observe(const typename Space::Sample& sample) {
   PredictedDisplacements<Space> predicted;
   for (size_t i = 0; i < predicted.size(); ++i) predicted[i] = displacementMeasured(kLearnedHorizons[i]);
   errors_.observe(tracker_, velocity_.value(), predicted);
-  if (commanded_) commanded_->observe(tracker_, *extrapolator_->regressors(), velocity_.value());
+  if (commanded_) commanded_->observe(tracker_, *extrapolator_->regressors(), velocity_.value(), errors_);
 }
 
 template <typename Space>
