@@ -42,7 +42,8 @@ class CommandedMotion {
   void interrupt();
 
   /// Returns whether the command predicts the motion from the newest sample on: it comes, and within the last second, no three
-  /// samples in a row were farther than three standard deviations from what it had predicted.
+  /// samples in a row were farther than three standard deviations from what it had predicted, and than
+  /// from what is predicted without it.
   bool inUse() const { return in_use_; }
 
   /// Returns the displacement after the newest sample, within the limits of the space.

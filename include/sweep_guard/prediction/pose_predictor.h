@@ -58,7 +58,7 @@ class PosePredictor {
   /// Adds what goes to the robot, a pose or a twist; anything else is ignored. From the next pose on, `direct` predicts from it as
   /// well, with weights and a covariance of their own: after 1 s of commands, while they come (three periods, at least
   /// 20 ms) and unless three poses in a row are farther than three standard deviations from what the command had predicted 0.1 s before
-  /// them; then again after 1 s. Without a command none of this is computed.
+  /// them, and than what the measured motion had; then again after 1 s. Without a command none of this is computed.
   /// @param command  finite, rotation orthonormal; not checked
   void command(const SentCommand& command);
 
