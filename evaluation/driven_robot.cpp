@@ -45,4 +45,15 @@ DrivenRobot drive(const RecordedMotion& motion, const RobotOptions& options) {
   return driven;
 }
 
+sweep_guard_recording::Recording followed(const sweep_guard_recording::Recording& recording, RobotOptions options) {
+  constexpr double kUnlimited = 1e9;
+  options.max_speed = options.max_turn_rate = options.max_acceleration = options.max_turn_acceleration = kUnlimited;
+  const RecordedMotion path(drive(RecordedMotion(recording.poses), options).path);
+  sweep_guard_recording::Recording robot{recording.name, {}, recording.poses};
+  for (const auto& pose : recording.poses) {
+    if (path.isContinuous(pose.stamp, pose.stamp)) robot.poses.push_back({pose.stamp, path.at(pose.stamp)});
+  }
+  return robot;
+}
+
 }  // namespace sweep_guard_evaluation

@@ -4,6 +4,7 @@
 
 #include "evaluation/recorded_motion.h"
 #include "evaluation/simulated_robot.h"
+#include "recording/recording.h"
 
 namespace sweep_guard_evaluation {
 
@@ -27,5 +28,9 @@ struct DrivenRobot {
 /// Drives a robot by the velocities of a recorded motion. In each segment without a gap it begins at rest at the first
 /// pose. Each velocity is that of the recording until the next command.
 DrivenRobot drive(const RecordedMotion& motion, const RobotOptions& options);
+
+/// Returns the motion of a robot to which the poses of a recording go, at their stamps: it follows them at any speed after
+/// the dead time and with the lag of the options.
+sweep_guard_recording::Recording followed(const sweep_guard_recording::Recording& recording, RobotOptions options);
 
 }  // namespace sweep_guard_evaluation

@@ -6,14 +6,20 @@
 
 namespace sweep_guard_evaluation {
 
+using sweep_guard_core::StampedPose;
 using sweep_guard_recording::Recording;
 
 namespace {
 
 sweep_guard_core::PredictorOptions withPredictor(sweep_guard_core::PredictorOptions options,
                                                  const std::string& predictor) {
-  options.predictor = predictor;
+  if (predictor != kCommandPredictor) options.predictor = predictor;
   return options;
+}
+
+/// Returns the commands of a recording if the predictor is told them.
+const std::vector<StampedPose>* commandsFor(const std::string& predictor, const Recording& recording) {
+  return predictor == kCommandPredictor ? &recording.commands : nullptr;
 }
 
 WarningReport emptyReport(const std::string& recording, size_t placements, const Options& options) {
@@ -41,8 +47,9 @@ std::vector<ErrorReport> reportErrors(const std::vector<Recording>& recordings, 
                                                             std::vector<std::vector<ErrorsAhead>>(predictors));
   inParallel(recordings.size() * predictors, [&](size_t i) {
     const auto predictor = withPredictor(options.predictor, options.predictors[i % predictors]);
-    errors[i / predictors][i % predictors] =
-        predictionErrors(motions[i / predictors], options.horizons, predictor, progress);
+    SampledMotion motion = motions[i / predictors];
+    motion.commands = commandsFor(options.predictors[i % predictors], recordings[i / predictors]);
+    errors[i / predictors][i % predictors] = predictionErrors(motion, options.horizons, predictor, progress);
   });
   std::vector<ErrorReport> reports;
   reports.reserve(recordings.size());
@@ -67,6 +74,7 @@ std::vector<WarningReport> reportWarnings(const std::vector<Recording>& recordin
     GuardSimulationOptions simulation = options.simulation;
     simulation.guard.predictor = withPredictor(options.predictor, options.predictors[predictor]);
     simulation.min_probabilities = report.min_probabilities;
+    simulation.commands = commandsFor(options.predictors[predictor], recordings[recording]);
     const auto& placed = placements[recording];
     for (const auto& levels : simulateGuard(recordings[recording].poses, placed, simulation, progress)) {
       report.statistics[predictor].push_back(

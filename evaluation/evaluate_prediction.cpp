@@ -4,6 +4,7 @@
 
 #include "common/run_program.h"
 #include "evaluation/calibration_report.h"
+#include "evaluation/driven_robot.h"
 #include "evaluation/evaluate.h"
 #include "evaluation/options.h"
 #include "evaluation/output_file.h"
@@ -24,8 +25,10 @@ using sweep_guard_recording::Recording;
 
 std::vector<Recording> readAll(const Options& options) {
   std::vector<Recording> recordings(options.files.size());
-  inParallel(options.files.size(),
-             [&](size_t i) { recordings[i] = sweep_guard_recording::readRecording(options.files[i], options.topic); });
+  inParallel(options.files.size(), [&](size_t i) {
+    recordings[i] = sweep_guard_recording::readRecording(options.files[i], options.topic, options.command);
+    if (options.plant) recordings[i] = followed(recordings[i], *options.plant);
+  });
   return recordings;
 }
 
@@ -103,7 +106,12 @@ class Evaluation {
     placed.fixed = readMeshes(options_.fixed_meshes, options_.mesh_scale);
     GuardSimulationOptions simulation = options_.simulation;
     simulation.guard.predictor = options_.predictor;
-    simulation.guard.predictor.predictor = options_.session_predictor;
+    if (options_.session_predictor == kCommandPredictor) {
+      simulation.guard.predictor.predictor = sweep_guard_core::PredictorOptions{}.predictor;
+    } else {
+      simulation.guard.predictor.predictor = options_.session_predictor;
+      for (Recording& recording : recordings_) recording.commands.clear();
+    }
     std::vector<Sessions> sessions = withProgress(
         "sessions", [&](const Progress& progress) { return runSessions(recordings_, placed, simulation, progress); });
     simulation.limits.thresholds = options_.session_thresholds;

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "common/xyz.h"
+#include "evaluation/command_feed.h"
 #include "evaluation/progress.h"
 #include "evaluation/simulated_node.h"
 #include "guard/contact_probability.h"
@@ -56,6 +57,7 @@ class FindingsRecorder {
  public:
   FindingsRecorder(const std::vector<TriangleMesh>& objects_W, const GuardSimulationOptions& options)
       : options_(options),
+        commands_(options.commands),
         tool_(options.tool),
         radius_(tool_.bounds_T().min().cwiseAbs().cwiseMax(tool_.bounds_T().max().cwiseAbs()).norm()),
         guard_(tool_, sweep_guard_core::makeDetector("reference"), withoutTimeLimit(options.guard)) {
@@ -86,6 +88,7 @@ class FindingsRecorder {
     const double margin = radius_ + options_.guard.sweep.margin + kRounding;
     choose({reach_W.min().array() - margin, reach_W.max().array() + margin});
     const Instant at = instantOf(pose.stamp);
+    commands_.sendUntil(pose.stamp, guard_);
     guard_.sweep({at.stamp, at.steady, pose.X_WT, {{kFrame, Eigen::Isometry3d::Identity()}}}, chosen_, report_);
     for (size_t i = 0; i < numbers_.size(); ++i) {
       if (report_.objects[i].result.contact()) pending(numbers_[i]).contact = true;
@@ -160,6 +163,7 @@ class FindingsRecorder {
   }
 
   const GuardSimulationOptions& options_;
+  CommandFeed commands_;
   const sweep_guard_core::Tool tool_;
   const double radius_;
   sweep_guard_core::Guard guard_;

@@ -41,8 +41,12 @@ po::options_description predictionOptions(Options& options) {
   po::options_description described("Prediction");
   described.add_options()("help,h", po::bool_switch(&options.help), "print this text")(
       "predictors", withDefault(fmt::format("{}", fmt::join(sweep_guard_core::predictorNames(), ",")), "NAMES"),
-      "predictors to compare")("topic", text(options.topic, "NAME"),
-                               "topic of the poses in rosbags; required if there are several")(
+      "predictors to compare; `command` is `direct` that is told what goes to the robot")(
+      "command", text(options.command, "TOPIC"),
+      "topic of what goes to the robot in rosbags, poses; adds the predictor `command`")(
+      "plant", po::value<std::string>()->value_name("S,S"),
+      "a robot to which the recordings go: dead time and lag [s]; adds the predictor `command`")(
+      "topic", text(options.topic, "NAME"), "topic of the poses in rosbags; required if there are several")(
       "horizons", withDefault("0.1,0.2,0.5,1", "S,S,..."), "horizons of the prediction errors [s]")(
       "degree", withDefault("1", "N"),
       "`polynomial` only: degree, 0 to 5; one for all axes, or six for x,y,z and the rotations")(
@@ -87,8 +91,18 @@ po::options_description sessionOptions(Options& options) {
   return described;
 }
 
-std::vector<std::string> toPredictors(const std::string& list) {
-  const std::vector<std::string>& known = sweep_guard_core::predictorNames();
+RobotOptions toPlant(const std::string& list) {
+  const std::vector<std::string> words = splitAtCommas(list);
+  if (words.size() != 2) throw InvalidInput("--plant takes two numbers: dead time and lag");
+  RobotOptions plant;
+  plant.dead_time = sweep_guard_core::fromSeconds(toNumber("plant", words[0], 0.0, 1.0));
+  plant.lag = sweep_guard_core::fromSeconds(toNumber("plant", words[1], 0.0, 1.0));
+  return plant;
+}
+
+std::vector<std::string> toPredictors(const std::string& list, bool commands) {
+  std::vector<std::string> known = sweep_guard_core::predictorNames();
+  if (commands) known.emplace_back(kCommandPredictor);
   std::vector<std::string> names;
   for (const std::string& name : splitAtCommas(list)) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
@@ -128,7 +142,9 @@ void store(const po::variables_map& values, Options& options) {
   const auto seconds = [&](const char* option, double lower, double upper) {
     return sweep_guard_core::fromSeconds(number(option, lower, upper));
   };
-  options.predictors = toPredictors(word("predictors"));
+  if (values.count("plant") != 0) options.plant = toPlant(word("plant"));
+  options.predictors = toPredictors(word("predictors"), options.hasCommands());
+  if (options.hasCommands() && values["predictors"].defaulted()) options.predictors.emplace_back(kCommandPredictor);
   options.horizons = toHorizons(word("horizons"));
   options.predictor.degree = toDegrees(word("degree"));
   options.predictor.window = seconds("window", 1e-3, 60.0);
@@ -159,7 +175,8 @@ void store(const po::variables_map& values, Options& options) {
     throw InvalidInput("--sheets: sessions need a sheet or a mesh");
   }
   if (values["predictors"].defaulted()) {
-    options.session_predictor = sweep_guard_core::PredictorOptions{}.predictor;
+    options.session_predictor =
+        options.hasCommands() ? kCommandPredictor : sweep_guard_core::PredictorOptions{}.predictor;
   } else {
     options.session_predictor = options.predictors.front();
   }

@@ -7,14 +7,20 @@
 #include "evaluation/obstacle_placement.h"
 #include "evaluation/session_objects.h"
 #include "evaluation/simulate_guard.h"
+#include "evaluation/simulated_robot.h"
 
 namespace sweep_guard_evaluation {
+
+/// Name of the predictor `direct` that is told what goes to the robot.
+constexpr const char* kCommandPredictor = "command";
 
 /// Options of the program.
 struct Options {
   bool help = false;
-  std::vector<std::string> files;  ///< at least one
-  std::string topic;               ///< of the rosbags; empty: the only topic with poses
+  std::vector<std::string> files;     ///< at least one
+  std::string topic;                  ///< of the rosbags; empty: the only topic with poses
+  std::string command;                ///< topic of what goes to the robot; empty: none
+  std::optional<RobotOptions> plant;  ///< dead time and lag of a robot that the recordings go to; empty: none
 
   std::vector<std::string> predictors;               ///< at least one, each once
   std::vector<sweep_guard_core::Duration> horizons;  ///< ascending, > 0
@@ -44,6 +50,7 @@ struct Options {
   std::string calibration_csv;
   std::string compare_sessions;  ///< file to read: a sessions_objects_csv
 
+  bool hasCommands() const { return plant || !command.empty(); }
   bool wantsNothing() const { return csv.empty() && warnings_csv.empty() && tradeoff_csv.empty() && !wantsSessions(); }
   bool wantsSessions() const {
     return sessions || !sessions_csv.empty() || !sessions_objects_csv.empty() || tune || !compare_sessions.empty() ||

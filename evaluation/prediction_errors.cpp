@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "evaluation/command_feed.h"
 #include "sweep_guard/common/quantile.h"
 
 namespace sweep_guard_evaluation {
@@ -70,7 +71,9 @@ std::vector<ErrorsAhead> predictionErrors(const SampledMotion& sampled, const st
   sweep_guard_core::PredictedPath path;
   std::vector<ErrorsAhead> errors(horizons.size());
   auto sample = sampled.samples.begin();
+  CommandFeed commands(sampled.commands);
   for (size_t i = 0; i < poses.size(); ++i) {
+    commands.sendUntil(poses[i].stamp, predictor);
     predictor.observe(poses[i]);
     if (sample != sampled.samples.end() && *sample == i) {
       predictor.predict(horizons, path);

@@ -26,6 +26,8 @@ struct SampledMotion {
   const std::vector<sweep_guard_core::StampedPose>& poses;
   RecordedMotion motion;        ///< of the poses
   std::vector<size_t> samples;  ///< indices of poses, ascending
+  /// What goes to the robot; null: the predictor is not told.
+  const std::vector<sweep_guard_core::StampedPose>* commands = nullptr;
 };
 
 /// Passes every pose to a predictor and compares its prediction at each sample with the motion.

@@ -39,6 +39,7 @@ Sessions::Sessions(const Recording& recording, const SessionOptions& options, co
       motion_(recording.poses),
       sessions_(options.sessions),
       parts_(parts) {
+  simulation_.commands = &recording.commands;
   std::vector<TriangleMesh> meshes_W;
   for (size_t session = 0; session < sessions_; ++session) {
     for (TriangleMesh& mesh_W : placeInWorkspace(motion_, options, session)) meshes_W.push_back(std::move(mesh_W));

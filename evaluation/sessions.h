@@ -15,7 +15,7 @@ namespace sweep_guard_evaluation {
 class Sessions {
  public:
   /// Places the objects.
-  /// @param simulation  must outlive this object, as must the recording
+  /// @param recording  must outlive this object; the guard is told its commands
   /// @param parts       number of parts of about as many objects each, at least 1
   Sessions(const sweep_guard_recording::Recording& recording, const SessionOptions& options,
            const GuardSimulationOptions& simulation, size_t parts);
@@ -44,14 +44,14 @@ class Sessions {
   };
 
   const sweep_guard_recording::Recording& recording_;
-  const GuardSimulationOptions& simulation_;
+  GuardSimulationOptions simulation_;
   RecordedMotion motion_;
   size_t sessions_;
   std::vector<Part> parts_;  // of the objects of all sessions, one after the other
 };
 
 /// Runs the sessions of every recording, in parallel.
-/// @param simulation  must outlive the result, as must the recordings
+/// @param recordings  must outlive the result
 std::vector<Sessions> runSessions(const std::vector<sweep_guard_recording::Recording>& recordings,
                                   const SessionOptions& options, const GuardSimulationOptions& simulation,
                                   const Progress& progress);

@@ -5,6 +5,7 @@
 #include <list>
 #include <utility>
 
+#include "evaluation/command_feed.h"
 #include "evaluation/progress.h"
 #include "evaluation/simulated_node.h"
 #include "sweep_guard/monitor/warning_monitor.h"
@@ -72,6 +73,7 @@ class GuardSimulation {
   GuardSimulation(const std::vector<ObstaclePlacement>& placements, const GuardSimulationOptions& options)
       : placements_(placements),
         options_(options),
+        commands_(options.commands),
         guard_(sweep_guard_core::Tool(options.tool), sweep_guard_core::makeDetector("reference"),
                withoutTimeLimit(options.guard)),
         levels_(options.min_probabilities.size(), std::vector<LevelTrace>(placements.size())) {}
@@ -104,6 +106,7 @@ class GuardSimulation {
     for (const ActivePlacement& placement : active_) workpieces.push_back(placement.workpiece());
     const Instant at = instantOf(pose.stamp);
     SweepReport report;
+    commands_.sendUntil(pose.stamp, guard_);
     guard_.sweep({at.stamp, at.steady, pose.X_WT, {{kFrame, Eigen::Isometry3d::Identity()}}}, workpieces, report);
     if (active_.empty()) return;
     Prediction prediction;
@@ -137,6 +140,7 @@ class GuardSimulation {
 
   const std::vector<ObstaclePlacement>& placements_;
   const GuardSimulationOptions& options_;
+  CommandFeed commands_;
   sweep_guard_core::Guard guard_;
   Time newest_;
   size_t next_ = 0;  // placement

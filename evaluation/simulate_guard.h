@@ -16,6 +16,8 @@ struct GuardSimulationOptions {
   /// Workpieces never become stale. `thresholds` are not used; see min_probabilities.
   sweep_guard_core::WarningLimits limits = {std::chrono::milliseconds(100), sweep_guard_core::Duration::max(),
                                             std::chrono::milliseconds(500)};
+  /// What goes to the robot; null: the guard is not told. Stamps do not decrease.
+  const std::vector<sweep_guard_core::StampedPose>* commands = nullptr;
   std::vector<double> min_probabilities;  ///< thresholds to simulate, each in (0, 1]
 };
 

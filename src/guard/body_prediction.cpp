@@ -24,6 +24,7 @@ void BodyPrediction::begin(const BodyPredictionRequest& request, Prediction& pre
   prediction.path = motion.path;
   prediction.body_paths = motion.body_paths;
   prediction.reflex_sweeps = motion.reflex_sweeps;
+  prediction.from_command = motion.from_command;
   prediction.sweeps_asked = motion.path.size();
   prediction.sweeps_made = request.plan.sweepCount(motion.path);
   prediction.unplaced.clear();

@@ -47,6 +47,11 @@ MotionPredictor::MotionPredictor(const PredictorOptions& options, std::shared_pt
   if (robot_) joints_.emplace(options, robot_->tree.variables());
 }
 
+void MotionPredictor::command(const SentCommand& command) {
+  tool_.command(command);
+  if (joints_) joints_->command(command);
+}
+
 void MotionPredictor::observe(const PoseWithFrames& pose) {
   tool_.observe({pose.stamp, pose.X_WT});
   if (joints_) joints_->observe(pose.stamp, pose.state.positions);
@@ -56,6 +61,7 @@ void MotionPredictor::predict(const Horizon& horizon, PredictedMotion& motion) c
   motion.body_paths.resize(robot_ ? robot_->bodies.size() : 0);
   for (PredictedPath& path : motion.body_paths) path.clear();
   motion.path.clear();
+  motion.from_command = tool_.usesCommand() || (joints_ && joints_->usesCommand());
   if (joints_ && !joints_->knowsMotion()) return;
   tool_.predict(horizon.ends, motion.path);
   motion.reflex_sweeps = horizon.reflex_sweeps;

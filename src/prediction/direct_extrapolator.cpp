@@ -24,17 +24,8 @@ static_assert(kReturn + 1 == kRegressors);
 }  // namespace
 
 template <typename Space>
-LearnedMotion<Space>::LearnedMotion(const typename Space::Speeds& prior_speeds, size_t channels)
-    : share(1.0 / static_cast<double>(channels)) {
-  for (int group = 0; group < Space::kGroups; ++group) {
-    Regressions& regressions = groups.emplace_back();
-    for (const double ahead : kLearnedHorizons) regressions.emplace_back(ahead, prior_speeds[group]);
-  }
-}
-
-template <typename Space>
-DirectExtrapolator<Space>::DirectExtrapolator(std::shared_ptr<LearnedMotion<Space>> learned)
-    : learned_(std::move(learned)) {
+DirectExtrapolator<Space>::DirectExtrapolator(const std::shared_ptr<LearnedMotion<Space>>& learned)
+    : learner_({learned, &learned->measured}) {
   for (const int milliseconds : kWindows) windows_.emplace_back(std::chrono::milliseconds(milliseconds));
 }
 
@@ -78,44 +69,10 @@ void DirectExtrapolator<Space>::scale() {
 
 template <typename Space>
 void DirectExtrapolator<Space>::observe(const MotionTracker<Space>& tracker) {
-  using Step = typename MotionTracker<Space>::Step;
   measure(tracker);
-  if (tracker.step() == Step::kBegins) targets_.clear();
-  if (tracker.step() == Step::kCorrects) targets_.correctNewest(tracker.newest(), regressors_);
-  if (tracker.step() != Step::kContinues) return;
-  const double period = learned_->share * toSeconds(tracker.period());
-  targets_.add(tracker.newest(), regressors_, [&](const auto& then, size_t i, const Vector& moved) {
-    for (size_t group = 0; group < learned_->groups.size(); ++group) {
-      const auto first = static_cast<Eigen::Index>(group) * Space::kAxes;
-      learned_->groups[group][i].learn(then.template middleRows<Space::kAxes>(first),
-                                       moved.template segment<Space::kAxes>(first), period,
-                                       expectedWeights(learned_->groups[group], i));
-    }
-  });
+  learner_.observe(tracker, regressors_);
 }
 
-template <typename Space>
-typename DirectExtrapolator<Space>::Weights DirectExtrapolator<Space>::expectedWeights(const Regressions& regressions,
-                                                                                       size_t horizon) {
-  if (horizon == 0) return Regression::constantVelocity(kLearnedHorizons[0]);
-  return kLearnedHorizons[horizon] / kLearnedHorizons[horizon - 1] * regressions[horizon - 1].weights();
-}
-
-template <typename Space>
-typename Space::Vector DirectExtrapolator<Space>::displacementIn(double ahead) const {
-  Vector displacement;
-  for (size_t group = 0; group < learned_->groups.size(); ++group) {
-    const auto first = static_cast<Eigen::Index>(group) * Space::kAxes;
-    const auto weights = interpolateOverHorizons<Weights>(
-        ahead, [&](size_t i) { return learned_->groups[group][i].weights() / kLearnedHorizons[i]; });
-    displacement.template segment<Space::kAxes>(first) =
-        ahead * regressors_.template middleRows<Space::kAxes>(first) * weights;
-  }
-  return displacement;
-}
-
-template struct LearnedMotion<PoseSpace>;
-template struct LearnedMotion<JointSpace>;
 template class DirectExtrapolator<PoseSpace>;
 template class DirectExtrapolator<JointSpace>;
 

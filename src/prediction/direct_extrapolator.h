@@ -10,28 +10,14 @@
 // weights for each axis. The samples of the last second are kept; nothing is allocated unless they become more.
 
 #include <memory>
-#include <utility>
 #include <vector>
 
-#include "prediction/delayed_targets.h"
-#include "prediction/displacement_regression.h"
+#include "prediction/displacement_learner.h"
 #include "prediction/exponential_moving_average.h"
 #include "prediction/extrapolator.h"
 #include "prediction/motion_tracker.h"
 
 namespace sweep_guard_core {
-
-/// What is learned for each of kLearnedHorizons, of each group of axes. Channels may share it: joints that one hand moves.
-template <typename Space>
-struct LearnedMotion {
-  using Regressions = std::vector<DisplacementRegression<Space::kAxes>>;  ///< for each of kLearnedHorizons
-
-  /// @param channels  number of those that share it, > 0
-  LearnedMotion(const typename Space::Speeds& prior_speeds, size_t channels);
-
-  std::vector<Regressions> groups;  ///< Space::kGroups of them
-  const double share;               ///< of each channel in the time that is learned from
-};
 
 /// Predicts displacements by one DisplacementRegression for each of kLearnedHorizons. They are regressed on velocities: of
 /// the newest motion over windows of 50, 120, 300, 800 and 20 ms; one of them times its speed, because fast motions end
@@ -43,30 +29,22 @@ class DirectExtrapolator : public Extrapolator<Space> {
   using Vector = typename Space::Vector;
 
   /// @param learned  not null; not checked
-  explicit DirectExtrapolator(std::shared_ptr<LearnedMotion<Space>> learned);
+  explicit DirectExtrapolator(const std::shared_ptr<LearnedMotion<Space>>& learned);
 
   void observe(const MotionTracker<Space>& tracker) override;
-  Vector displacementIn(double ahead) const override;
+  Vector displacementIn(double ahead) const override { return learner_.displacementIn(ahead); }
+  const Regressors<Space>* regressors() const override { return &regressors_; }
 
  private:
-  using Regression = DisplacementRegression<Space::kAxes>;
-  using Weights = typename Regression::Weights;
-  using Regressions = typename LearnedMotion<Space>::Regressions;
-
-  // Of a tool: translation [m/s] above rotation [rad/s]. One regressor per column.
-  using Regressors = Eigen::Matrix<double, Space::kSize, kRegressors>;
-
   void measure(const MotionTracker<Space>& tracker);
   void average(const MotionTracker<Space>& tracker);
   void scale();
-  static Weights expectedWeights(const Regressions& regressions, size_t horizon);
 
   std::vector<Velocity<Space>> windows_;
   ExponentialMovingAverage<typename Space::Speeds> speeds_{Space::Speeds::Zero()};  // squared, of each group
   Vector center_ = Vector::Zero();                                                  // mean of the recent coordinates
-  Regressors regressors_ = Regressors::Zero();
-  DelayedTargets<Space, Regressors> targets_;
-  const std::shared_ptr<LearnedMotion<Space>> learned_;
+  Regressors<Space> regressors_ = Regressors<Space>::Zero();
+  DisplacementLearner<Space, kRegressors> learner_;
 };
 
 }  // namespace sweep_guard_core

@@ -7,20 +7,22 @@
 
 namespace sweep_guard_core {
 
-/// Number of velocities that a displacement is regressed on.
+/// Number of velocities of the measured motion that a displacement is regressed on, and of these and those of a command.
 constexpr int kRegressors = 8;
+constexpr int kCommandRegressors = kRegressors + 2;
 
 /// Learns the displacement of a tool or a joint within one horizon from the operator's velocities. A recursive least squares fit
 /// regresses the displacement on the velocities before it, with coefficients that its axes share; outliers have
 /// less weight. Before it has learned, it assumes constant velocity. If its errors exceed those of constant velocity or
 /// of no motion, it blends with these. For translation [m, m/s] or rotation [rad, rad/s].
 /// @tparam Axes  number of axes that share the coefficients: 3 of a tool, 1 of a joint
-template <int Axes>
+/// @tparam N     number of velocities
+template <int Axes, int N = kRegressors>
 class DisplacementRegression {
  public:
-  using Velocities = Eigen::Matrix<double, Axes, kRegressors>;  ///< one per column; the first is the newest
+  using Velocities = Eigen::Matrix<double, Axes, N>;  ///< one per column; the first is the newest
   using Moved = Eigen::Matrix<double, Axes, 1>;
-  using Weights = Eigen::Matrix<double, kRegressors, 1>;  ///< [s]; predicted displacement: velocities * weights
+  using Weights = Eigen::Matrix<double, N, 1>;  ///< [s]; predicted displacement: velocities * weights
 
   /// @param ahead        the horizon [s], > 0
   /// @param prior_speed  motion at this speed has full weight, slower motion has less, > 0
@@ -44,7 +46,7 @@ class DisplacementRegression {
 
   double ahead_;
   double prior_speed_;
-  Rls<kRegressors, 1> fit_;
+  Rls<N, 1> fit_;
   Weights learned_ = constantVelocity(ahead_);
   // Errors of the fit, of constant velocity, of no motion.
   ExponentialMovingAverage<Eigen::Array3d> errors_{Eigen::Array3d(0.0, 0.0, prior_speed_* ahead_), /*weight=*/0.1};

@@ -3,6 +3,7 @@
 namespace sweep_guard_core {
 namespace {
 
+constexpr size_t kJudged = 2;        // of kLearnedHorizons: 0.1 s
 constexpr double kPriorShare = 0.3;  // of the displacement at the current speed: error assumed before any is known
 
 using Joint = JointSpace::Vector;
@@ -74,12 +75,23 @@ void ErrorModel<Space>::observe(const MotionTracker<Space>& tracker, const Vecto
   if (tracker.step() == Step::kCorrects) targets_.correctNewest(tracker.newest(), newest);
   if (tracker.step() != Step::kContinues) return;
   targets_.add(tracker.newest(), newest, [&](const Features& features, size_t i, const Vector& moved) {
-    errors_[i].add(squares(errorOf<Space>(features.predicted[i], moved), features.direction), period);
+    const Squares error = squares(errorOf<Space>(features.predicted[i], moved), features.direction);
+    if (i == kJudged) {
+      newest_ = error;
+      limit_ = 9.0 * (kLearnedHorizons[i] * share(i)).square() * features.activity;
+    }
+    errors_[i].add(error, period);
     const auto speed = [&](const Vector& displacement) {
       return speedSquares(Vector(displacement / kLearnedHorizons[i]));
     };
     activities_[i].add(features.activity.max(speed(moved)).max(speed(features.predicted[i])), period);
   });
+}
+
+template <typename Space>
+void ErrorModel<Space>::interrupt() {
+  targets_.clear();
+  newest_.setZero();
 }
 
 template <typename Space>

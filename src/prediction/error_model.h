@@ -28,6 +28,12 @@ class ErrorModel {
   void observe(const MotionTracker<Space>& tracker, const Vector& velocity,
                const PredictedDisplacements<Space>& predicted);
 
+  /// Forgets the predictions whose errors are not known yet, and keeps what was learned.
+  void interrupt();
+
+  /// Returns whether the newest error within 0.1 s exceeds three standard deviations, and that of another model.
+  bool misleads(const ErrorModel& other) const { return (newest_ > limit_ && newest_ > other.newest_).any(); }
+
   /// Returns the covariance of the error of what is predicted. Of a pose: translation [m], then rotation vector [rad],
   /// both along the axes of W.
   /// @param ahead  time after the newest pose [s], > 0
@@ -47,6 +53,8 @@ class ErrorModel {
   Squares share(size_t horizon) const;
 
   DelayedTargets<Space, Features> targets_;
+  Squares newest_ = Squares::Zero();  // error within 0.1 s
+  Squares limit_ = Squares::Zero();   // nine variances of it
   // For each of kLearnedHorizons: the errors, and the squared speed at the time of the errors.
   std::vector<ExponentialMovingAverage<Squares>> errors_;
   std::vector<ExponentialMovingAverage<Squares>> activities_;

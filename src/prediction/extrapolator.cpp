@@ -79,25 +79,20 @@ class ConstantVelocity : public Extrapolator<Space> {
 }  // namespace
 
 template <typename Space>
-std::unique_ptr<Extrapolator<Space>> makeExtrapolator(const PredictorOptions& options, const Space& space,
-                                                      std::shared_ptr<LearnedMotion<Space>> learned) {
+std::unique_ptr<Extrapolator<Space>> makeExtrapolator(const PredictorOptions& options,
+                                                      const std::shared_ptr<LearnedMotion<Space>>& learned) {
   if (options.predictor == "polynomial") return std::make_unique<PolynomialExtrapolator<Space>>(options);
   if (options.predictor == "constant_velocity") return std::make_unique<ConstantVelocity<Space>>();
   if (options.predictor == "hold") return std::make_unique<Hold<Space>>();
-  if (options.predictor == "direct") {
-    if (!learned) learned = std::make_shared<LearnedMotion<Space>>(space.priorSpeeds(), /*channels=*/1);
-    return std::make_unique<DirectExtrapolator<Space>>(std::move(learned));
-  }
+  if (options.predictor == "direct") return std::make_unique<DirectExtrapolator<Space>>(learned);
   throw InvalidInput("predictor '" + options.predictor +
                      "' is unknown: use polynomial, constant_velocity, hold or direct");
 }
 
-template std::unique_ptr<Extrapolator<PoseSpace>> makeExtrapolator(const PredictorOptions& options,
-                                                                   const PoseSpace& space,
-                                                                   std::shared_ptr<LearnedMotion<PoseSpace>> learned);
-template std::unique_ptr<Extrapolator<JointSpace>> makeExtrapolator(const PredictorOptions& options,
-                                                                    const JointSpace& space,
-                                                                    std::shared_ptr<LearnedMotion<JointSpace>> learned);
+template std::unique_ptr<Extrapolator<PoseSpace>> makeExtrapolator(
+    const PredictorOptions& options, const std::shared_ptr<LearnedMotion<PoseSpace>>& learned);
+template std::unique_ptr<Extrapolator<JointSpace>> makeExtrapolator(
+    const PredictorOptions& options, const std::shared_ptr<LearnedMotion<JointSpace>>& learned);
 
 const std::vector<std::string>& predictorNames() {
   static const std::vector<std::string> names = {"polynomial", "constant_velocity", "hold", "direct"};

@@ -2,10 +2,18 @@
 
 #include <memory>
 
+#include "prediction/displacement_regression.h"
 #include "prediction/motion_tracker.h"
 #include "sweep_guard/prediction/pose_predictor.h"
 
 namespace sweep_guard_core {
+
+/// Velocities of a tool, translation [m/s] above rotation [rad/s], or of a joint: one in each column.
+template <typename Space, int N = kRegressors>
+using Regressors = Eigen::Matrix<double, Space::kSize, N>;
+
+template <typename Space>
+struct LearnedMotion;
 
 /// Extrapolates the motion of a tool or a joint.
 template <typename Space>
@@ -19,16 +27,16 @@ class Extrapolator {
   /// Predicts the displacement after the newest sample.
   /// @param ahead  [s], > 0
   virtual typename Space::Vector displacementIn(double ahead) const = 0;
+
+  /// Returns the velocities at the newest sample that the displacement is regressed on; null: there are none.
+  virtual const Regressors<Space>* regressors() const { return nullptr; }
 };
 
-template <typename Space>
-struct LearnedMotion;
-
 /// Makes the extrapolator that `options.predictor` names.
-/// @param learned  that `direct` shares with others; null: it learns alone
+/// @param learned  of `direct`, not null; not checked
 /// @throws InvalidInput if the name is unknown
 template <typename Space>
-std::unique_ptr<Extrapolator<Space>> makeExtrapolator(const PredictorOptions& options, const Space& space,
-                                                      std::shared_ptr<LearnedMotion<Space>> learned = nullptr);
+std::unique_ptr<Extrapolator<Space>> makeExtrapolator(const PredictorOptions& options,
+                                                      const std::shared_ptr<LearnedMotion<Space>>& learned);
 
 }  // namespace sweep_guard_core

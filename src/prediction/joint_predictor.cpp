@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 #include "prediction/direct_extrapolator.h"
@@ -51,6 +52,20 @@ JointPredictor::JointPredictor(const PredictorOptions& options, const std::vecto
 JointPredictor::~JointPredictor() = default;
 JointPredictor::JointPredictor(JointPredictor&&) noexcept = default;
 JointPredictor& JointPredictor::operator=(JointPredictor&&) noexcept = default;
+
+void JointPredictor::command(const SentCommand& command) {
+  const auto* joints = std::get_if<CommandedJoints>(&command.value);
+  if (joints == nullptr) return;
+  assert(joints->velocities.size() == joints_.size());
+  for (size_t i = 0; i < joints_.size(); ++i) {
+    const double velocity = joints->velocities[i];
+    if (!std::isnan(velocity)) joints_[i].channel.command(command.stamp, JointSpace::Vector(velocity));
+  }
+}
+
+bool JointPredictor::usesCommand() const {
+  return std::any_of(joints_.begin(), joints_.end(), [](const Joint& joint) { return joint.channel.usesCommand(); });
+}
 
 void JointPredictor::observe(Time stamp, const std::vector<double>& positions) {
   assert(positions.size() == joints_.size());

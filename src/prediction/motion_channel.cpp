@@ -22,7 +22,9 @@ MotionChannel<Space>::MotionChannel(const PredictorOptions& options, const Space
                                     std::shared_ptr<LearnedMotion<Space>> learned)
     : tracker_(space),
       velocity_(kActivityWindow),
-      extrapolator_(makeExtrapolator(options, space, std::move(learned))),
+      learned_(learned ? std::move(learned)
+                       : std::make_shared<LearnedMotion<Space>>(space.priorSpeeds(), /*channels=*/1)),
+      extrapolator_(makeExtrapolator(options, learned_)),
       errors_(space) {}
 
 template <typename Space>
@@ -31,8 +33,15 @@ void MotionChannel<Space>::observe(const typename Space::Sample& sample) {
   velocity_.observe(tracker_);
   extrapolator_->observe(tracker_);
   PredictedDisplacements<Space> predicted;
-  for (size_t i = 0; i < predicted.size(); ++i) predicted[i] = displacementIn(kLearnedHorizons[i]);
+  for (size_t i = 0; i < predicted.size(); ++i) predicted[i] = displacementMeasured(kLearnedHorizons[i]);
   errors_.observe(tracker_, velocity_.value(), predicted);
+  if (commanded_) commanded_->observe(tracker_, *extrapolator_->regressors(), velocity_.value(), errors_);
+}
+
+template <typename Space>
+void MotionChannel<Space>::interrupt() {
+  tracker_.interrupt();
+  if (commanded_) commanded_->interrupt();
 }
 
 template class MotionChannel<PoseSpace>;

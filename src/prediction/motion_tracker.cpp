@@ -47,6 +47,11 @@ void MotionTracker<Space>::notePeriod(double seconds) {
   longest_period_ = std::max(seconds, kept * longest_period_);
 }
 
+template <typename Space>
+bool MotionTracker<Space>::isSilentAt(Time stamp) const {
+  return samples_ == 0 || stamp - newest_.stamp > std::max<Duration>(kSpan, fromSeconds(3 * longest_period_));
+}
+
 // Half a period: regular samples are farther apart, whatever their jitter.
 template <typename Space>
 Duration MotionTracker<Space>::leastSpan() const {

@@ -35,6 +35,9 @@ class MotionTracker {
   const Sample& newest() const { return newest_; }  ///< there must be one
   Duration period() const { return period_; }       ///< from the previous sample to the newest
 
+  /// Returns whether there is no sample, or the newest one is three periods old, at least 20 ms: the longest period lately.
+  bool isSilentAt(Time stamp) const;
+
   /// Returns coordinates of the newest sample that never wrap. Of a pose: translation in W [m], then the rotations about
   /// the tool's own axes, summed from pose to pose [rad].
   const Vector& coordinates() const { return coordinates_; }

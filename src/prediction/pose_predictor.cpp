@@ -13,6 +13,24 @@ PosePredictor::~PosePredictor() = default;
 PosePredictor::PosePredictor(PosePredictor&&) noexcept = default;
 PosePredictor& PosePredictor::operator=(PosePredictor&&) noexcept = default;
 
+void PosePredictor::command(const SentCommand& command) {
+  if (const auto* X_WT = std::get_if<Eigen::Isometry3d>(&command.value)) {
+    channel_->command(StampedPose{command.stamp, *X_WT});
+  } else if (const auto* commanded = std::get_if<CommandedTwist>(&command.value)) {
+    const Eigen::Matrix3d R_WT = channel_->newest().X_WT.linear();
+    Vector6d velocity =
+        commanded->twist;  // as a tracker has it: translation along the axes of W, turn about those of T
+    if (commanded->of_tool) {
+      velocity.head<3>() = R_WT * velocity.head<3>();
+    } else {
+      velocity.tail<3>() = R_WT.transpose() * velocity.tail<3>();
+    }
+    channel_->command(command.stamp, velocity);
+  }
+}
+
+bool PosePredictor::usesCommand() const { return channel_->usesCommand(); }
+
 void PosePredictor::observe(const StampedPose& pose) { channel_->observe(pose); }
 
 void PosePredictor::predict(const std::vector<Duration>& ahead, PredictedPath& path) const {

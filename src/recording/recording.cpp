@@ -130,8 +130,10 @@ std::vector<StampedPose> readMotionFile(const std::string& path) {
   return poses;
 }
 
-Recording readRecording(const std::string& path, const std::string& topic) {
-  return {std::filesystem::path(path).stem(), isBag(path) ? readBag(path, topic) : readMotionFile(path)};
+Recording readRecording(const std::string& path, const std::string& topic, const std::string& command) {
+  const std::string name = std::filesystem::path(path).stem();
+  if (!isBag(path)) return {name, readMotionFile(path)};
+  return {name, readBag(path, topic), command.empty() ? std::vector<StampedPose>() : readBag(path, command)};
 }
 
 }  // namespace sweep_guard_recording

@@ -23,13 +23,15 @@ std::vector<sweep_guard_core::StampedPose> readMotionFile(const std::string& pat
 
 /// A recorded motion and its name in tables and plots.
 struct Recording {
-  std::string name;                                  ///< file name without folder and extension
-  std::vector<sweep_guard_core::StampedPose> poses;  ///< at least one; stamps do not decrease
+  std::string name;                                          ///< file name without folder and extension
+  std::vector<sweep_guard_core::StampedPose> poses;          ///< at least one; stamps do not decrease
+  std::vector<sweep_guard_core::StampedPose> commands = {};  ///< poses that go to the robot; empty: not known
 };
 
 /// Reads a motion file or a rosbag.
-/// @param topic  of a rosbag; empty: the only topic with poses
+/// @param topic    of a rosbag; empty: the only topic with poses
+/// @param command  topic of the commands of a rosbag; empty: none
 /// @throws sweep_guard_core::InvalidInput as readMotionFile() and readBag() do
-Recording readRecording(const std::string& path, const std::string& topic);
+Recording readRecording(const std::string& path, const std::string& topic, const std::string& command = {});
 
 }  // namespace sweep_guard_recording

@@ -50,5 +50,15 @@ TEST(DrivenRobotTest, CommandsAreWithinTheLimitsOfTheRobot) {
   EXPECT_NEAR(fastest, limits.max_speed, 1e-9);
 }
 
+TEST(DrivenRobotTest, WhatARecordingGoesToFollowsItAtItsStamps) {
+  const sweep_guard_recording::Recording hand{"hand", straightMotion(3.0, milliseconds(20), seconds(2))};
+  const auto robot = followed(hand, {});
+  EXPECT_EQ(robot.name, "hand");
+  ASSERT_EQ(robot.commands.size(), hand.poses.size());
+  ASSERT_EQ(robot.poses.size(), hand.poses.size());
+  EXPECT_EQ(robot.poses.back().stamp, hand.poses.back().stamp);
+  EXPECT_NEAR(robot.poses.back().X_WT.translation().x(), hand.poses.back().X_WT.translation().x() - 3.0 * 0.05, 2e-3);
+}
+
 }  // namespace
 }  // namespace sweep_guard_evaluation

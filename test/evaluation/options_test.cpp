@@ -41,6 +41,19 @@ TEST(OptionsTest, TakeADegreeForAllAxesOrForEach) {
   EXPECT_EQ(parse({"--degree", "0,1,2,3,4,5", "a.txt"}).predictor.degree, (std::array<int, 6>{0, 1, 2, 3, 4, 5}));
 }
 
+TEST(OptionsTest, CommandsAddThePredictorThatIsToldOfThem) {
+  const Options options = parse({"--plant", "0.07,0.03", "a.txt"});
+  EXPECT_EQ(options.plant->dead_time, milliseconds(70));
+  EXPECT_EQ(options.plant->lag, milliseconds(30));
+  EXPECT_EQ(options.predictors.back(), kCommandPredictor);
+  EXPECT_EQ(options.session_predictor, kCommandPredictor);
+  EXPECT_EQ(parse({"--command", "/servo_cp", "a.bag"}).session_predictor, kCommandPredictor);
+  EXPECT_EQ(parse({"--plant", "0,0", "--predictors", "direct,command", "a.txt"}).session_predictor, "direct");
+  EXPECT_TRUE(has(refusal({"--predictors", "command", "a.txt"}), "'command' must be one of"));
+  EXPECT_TRUE(has(refusal({"--plant", "0.07", "a.txt"}), "--plant"));
+  EXPECT_TRUE(has(refusal({"--plant", "0.07,-1", "a.txt"}), "--plant"));
+}
+
 TEST(OptionsTest, NameWhatIsWrong) {
   EXPECT_TRUE(has(refusal({}), "no recording"));
   EXPECT_TRUE(has(refusal({"--color", "a.txt"}), "--color"));

@@ -17,7 +17,7 @@
 #include "drop_in_fixture.h"
 #include "refusal.h"
 #include "ros/child_process.h"
-#include "ros/motion/joint_jog.h"
+#include "ros/input/joint_jog.h"
 
 namespace sweep_guard_ros {
 namespace {

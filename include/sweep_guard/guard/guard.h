@@ -80,6 +80,10 @@ class Guard {
   /// @param frames  not null
   void follow(std::shared_ptr<const FrameMotions> frames) { frames_ = std::move(frames); }
 
+  /// Adds what goes to the robot: from the next pose on, its motion is predicted from it (PosePredictor::command()).
+  /// @param command  finite, rotation orthonormal, CommandedJoints as many as the joints of the robot; not checked
+  void command(const SentCommand& command) { predictor_.command(command); }
+
   /// Takes the last sweep back, because its report was lost or sweep() threw: the next one begins where it began. Not
   /// after later calls of pass().
   void takeBack() noexcept;

@@ -24,6 +24,9 @@ class MotionPredictor {
   /// @throws InvalidInput as PosePredictor()
   explicit MotionPredictor(const PredictorOptions& options, std::shared_ptr<const Robot> robot = nullptr);
 
+  /// Adds what goes to the robot, to the tool frame or to its joints, as PosePredictor::command().
+  void command(const SentCommand& command);
+
   /// Adds the newest pose, as PosePredictor::observe().
   /// @param pose  of a robot: with the state of its joints; not checked
   void observe(const PoseWithFrames& pose);

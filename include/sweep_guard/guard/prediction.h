@@ -33,9 +33,10 @@ double fromPlaneProbability(PredictionInterval interval, double plane_probabilit
 
 /// The predicted motion of the tool after a pose, not yet tested for contacts.
 struct PredictedMotion {
-  PoseWithFrames from;       ///< newest measured pose; a default value before the first sweep
-  PredictedPath path;        ///< empty if the motion is not known yet
-  size_t reflex_sweeps = 0;  ///< number of poses in the reflex interval (HorizonOptions); meaningless without a path
+  PoseWithFrames from;        ///< newest measured pose; a default value before the first sweep
+  PredictedPath path;         ///< empty if the motion is not known yet
+  size_t reflex_sweeps = 0;   ///< number of poses in the reflex interval (HorizonOptions); meaningless without a path
+  bool from_command = false;  ///< predicted from what goes to the robot, not from the measured motion alone
   std::vector<PredictedPath> body_paths = {};       ///< of each body of an articulated tool, at the same times
   std::shared_ptr<const FrameMotions> frames = {};  ///< of those that move on their own; null: none
 
@@ -83,8 +84,9 @@ struct Prediction {
   PredictedPath path;  ///< of T; empty if the motion is not known yet
   std::vector<PredictedPath> body_paths;  ///< as PredictedMotion::body_paths
   size_t reflex_sweeps = 0;  ///< number of sweeps, from the first, in the reflex interval; means nothing without a path
-  size_t sweeps_asked = 0;   ///< one for every pose of the path
-  size_t sweeps_made = 0;    ///< fewer if time was short: one sweep then covers several poses
+  bool from_command = false;             ///< as PredictedMotion::from_command
+  size_t sweeps_asked = 0;               ///< one for every pose of the path
+  size_t sweeps_made = 0;                ///< fewer if time was short: one sweep then covers several poses
   std::vector<PredictedObject> objects;  ///< every workpiece tested; none if the path is empty
   /// Workpieces not tested because their frame is unknown at the newest pose, or of one that moves on its own, to the end.
   Workpieces unplaced;

@@ -26,6 +26,9 @@ class JointPredictor {
   JointPredictor(JointPredictor&&) noexcept;
   JointPredictor& operator=(JointPredictor&&) noexcept;
 
+  /// Adds the velocities that go to the robot, as PosePredictor::command(); anything else is ignored.
+  void command(const SentCommand& command);
+
   /// Adds the newest positions, as PosePredictor::observe().
   /// @param positions  one of each joint, finite; not checked
   void observe(Time stamp, const std::vector<double>& positions);
@@ -37,6 +40,9 @@ class JointPredictor {
   /// @param ahead        after the stamp of the newest observed positions, > 0
   /// @param[out] joints  overwritten; its buffers are used again
   void predict(Duration ahead, PredictedJoints& joints) const;
+
+  /// Returns whether the motion of a joint is predicted from its command.
+  bool usesCommand() const;
 
   /// Forgets the positions, and keeps what was learned of the operator.
   void restart();

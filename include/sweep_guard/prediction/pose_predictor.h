@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sweep_guard/common/stamped_pose.h"
+#include "sweep_guard/prediction/sent_command.h"
 
 namespace sweep_guard_core {
 
@@ -54,6 +55,13 @@ class PosePredictor {
   PosePredictor(PosePredictor&&) noexcept;
   PosePredictor& operator=(PosePredictor&&) noexcept;
 
+  /// Adds what goes to the robot, a pose or a twist; anything else is ignored. From the next pose on, `direct` predicts from it as
+  /// well, with weights and a covariance of their own: after 1 s of commands, while they come (three periods, at least
+  /// 20 ms) and unless three poses in a row are farther than three standard deviations from what the command had predicted 0.1 s before
+  /// them, and than what the measured motion had; then again after 1 s. Without a command none of this is computed.
+  /// @param command  finite, rotation orthonormal; not checked
+  void command(const SentCommand& command);
+
   /// Adds the newest pose. A pose that is earlier than the previous one, or later by less than 0.5 ms, replaces the
   /// previous pose, whose stamp stays unless the pose is a jump. The fit restarts at this pose after a gap (more than
   /// 0.25 s, or three periods of slower poses, at most 1 s) and after a jump faster than the limits; the errors learned
@@ -66,6 +74,9 @@ class PosePredictor {
   /// @param ahead      times after the stamp of the newest observed pose, strictly ascending, > 0 (asserted)
   /// @param[out] path  overwritten; its buffers are used again
   void predict(const std::vector<Duration>& ahead, PredictedPath& path) const;
+
+  /// Returns whether predict() predicts from the command, not from the measured poses alone.
+  bool usesCommand() const;
 
   /// Forgets the poses, and keeps what was learned of the operator.
   void restart();

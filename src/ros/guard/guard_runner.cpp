@@ -12,6 +12,7 @@ GuardThreadDependencies dependenciesOf(GuardState& state, sweep_guard_core::Quer
                                        state.queue,      state.warnings,   state.scene,         state.touches,
                                        sampler,          state.intentions, &state.frame_motions};
   dependencies.distances = &state.distances;
+  if (state.parameters.initial().command_type != CommandSource::kNone) dependencies.commands = &state.commands;
   return dependencies;
 }
 

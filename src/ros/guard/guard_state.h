@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "guard/command_queue.h"
 #include "guard/intention_store.h"
 #include "guard/recent_poses.h"
 #include "guard/tool_distances.h"
@@ -37,6 +38,7 @@ class GuardState {
   LiveParameters& parameters;
   Supervisor supervisor;
   sweep_guard_core::WorkQueue queue;
+  sweep_guard_core::CommandQueue commands;
   sweep_guard_core::SweepStatistics statistics;
   sweep_guard_core::WarningMonitor monitor;
   WarningPublisher warnings;

@@ -89,11 +89,18 @@ GuardSteps::Taken GuardSteps::take(sweep_guard_core::QueuedPose& queued, const s
   if (!dependencies_.monitor.isToBeSwept(queued.checkpoint)) return Taken::kOutdated;
   if (!queued.checkpoint.continues(checkpoint_)) resetMotion();
   checkpoint_ = queued.checkpoint;
+  takeCommands();
   const bool is_passed = queued.pose.anew || (next != nullptr && knowsAllFramesOf(queued, *next));
   frames_known_to_ = follow(queued.pose);
   if (!is_passed) return Taken::kToSweep;
   pass(queued.pose);
   return Taken::kPassed;
+}
+
+void GuardSteps::takeCommands() {
+  if (dependencies_.commands == nullptr) return;
+  dependencies_.commands->take(sent_);
+  for (const sweep_guard_core::SentCommand& command : sent_) guard_.command(command);
 }
 
 // Returns the time up to which all frames that are followed are known, but for those that are silent: at most that of the pose.
@@ -275,10 +282,10 @@ void GuardSteps::endPrediction(const RunningPrediction& running) {
   results_.publish(prediction, running.age);
 
   const Duration considered = running.age + dependencies_.parameters.get()->limits.considered;
-  dependencies_.statistics.predicted({std::chrono::steady_clock::now() - pose.received, took, prediction.sweeps_made,
-                                      prediction.sweeps_asked,
-                                      prediction.coveredUntil() - prediction.stamp - running.age,
-                                      prediction.probability(PredictionInterval::kConsidered, considered)});
+  dependencies_.statistics.predicted(
+      {std::chrono::steady_clock::now() - pose.received, took, prediction.sweeps_made, prediction.sweeps_asked,
+       prediction.coveredUntil() - prediction.stamp - running.age,
+       prediction.probability(PredictionInterval::kConsidered, considered), prediction.from_command});
   reportFailures(prediction.failures);
   if (acknowledgements_.endWhereFar(predicted_with_, predictedFrom(pose, checkpoint_.epoch)))
     dependencies_.warnings.publishIfChanged();

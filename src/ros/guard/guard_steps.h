@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/pool.h"
+#include "guard/command_queue.h"
 #include "guard/cross_check.h"
 #include "guard/intention_store.h"
 #include "guard/prediction_pace.h"
@@ -61,6 +62,7 @@ struct GuardThreadDependencies {
     return ToolShapes(wanted);
   };
   sweep_guard_core::ToolDistances* distances = nullptr;  ///< null: nobody asks for them
+  sweep_guard_core::CommandQueue* commands = nullptr;    ///< that go to the robot; null: none is listened to
 };
 
 /// A prediction under way, see GuardSteps::beginPrediction().
@@ -128,6 +130,7 @@ class GuardSteps {
 
  private:
   void resetMotion();
+  void takeCommands();
   sweep_guard_core::Time follow(sweep_guard_core::PoseWithFrames& pose);
   void forgetFrames();
   void pass(const sweep_guard_core::PoseWithFrames& pose);
@@ -161,6 +164,7 @@ class GuardSteps {
   } placed_anew_;                                                 // since then
   std::shared_ptr<const sweep_guard_core::FrameMotions> frames_;  // at the newest sweep or prediction
   sweep_guard_core::Time frames_known_to_;               // all that are followed, at the newest sweep; at most its pose
+  std::vector<sweep_guard_core::SentCommand> sent_;      // by takeCommands(): keeps its memory
   std::vector<const sweep_guard_core::Tool*> measured_;  // by measureDistances(): keeps its memory
   sweep_guard_core::Pool<sweep_guard_core::SweepReport> reports_;
   sweep_guard_core::Pool<sweep_guard_core::Prediction> predictions_;

@@ -25,6 +25,9 @@ Inputs::Inputs(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                     state.monitor}),
       cameras_(node, {private_node, state.frames, state.parameters, state.monitor, state.recent_poses,
                       [&state](const auto& image) { return state.queue.show(image); }}),
+      commands_(state.parameters.initial().command_type == CommandSource::kNone
+                    ? nullptr
+                    : std::make_unique<CommandInput>(node, state.parameters.initial(), state.frames, state.commands)),
       peer_watch_(master, [&state, warning = sweep_guard_core::Warning()]() mutable {
         state.monitor.warning(now(), warning);
         return (warning.reasons & kSilentInputs) != 0;
@@ -37,6 +40,7 @@ void Inputs::start() {
   meshes_.start(state_.supervisor);
   other_tools_.start(state_.supervisor);
   cameras_.start(state_.supervisor);
+  if (commands_) commands_->start(state_.supervisor);
   poses_.start(state_.supervisor);
 }
 

@@ -15,8 +15,8 @@
 #include <variant>
 
 #include "ros/connection/bounded.h"
+#include "ros/input/joint_jog.h"
 #include "ros/motion/joint_input.h"
-#include "ros/motion/joint_jog.h"
 #include "ros/motion/motion_parameters.h"
 #include "sweep_guard/motion/motion_guard.h"
 #include "sweep_guard/prediction/jump.h"

@@ -60,6 +60,7 @@ Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& pri
   updater_.add("tool", [this](Status& status) { reportTool(*state_.parameters.get(), status); });
   updater_.add("mesh", [this](Status& status) { mesh(status); });
   updater_.add("mesh vertices", [this](Status& status) { vertices(status); });
+  if (inputs.commands() != nullptr) updater_.add("command", [this](Status& status) { command(status); });
   for (const auto& camera : inputs.cameras().all()) {
     updater_.add("camera " + camera->camera().id, [this, &camera = *camera, counts = std::make_shared<Counts>()](
                                                       Status& status) { this->camera(status, camera, *counts); });
@@ -137,6 +138,12 @@ void Diagnostics::vertices(Status& status) {
          /*continuous=*/false},
         vertices_);
   status.add("dropped", inputs_.meshes().droppedUpdates());
+}
+
+void Diagnostics::command(Status& status) {
+  const CommandInput& commands = *inputs_.commands();
+  input(status, {commands.topic(), commands.publishers(), commands.record().summary(), /*continuous=*/false},
+        commands_);
 }
 
 void Diagnostics::input(Status& status, const Input& input, Counts& previous) const {
@@ -278,6 +285,7 @@ void Diagnostics::prediction(Status& status) const {
   if (statistics_.prediction_times.empty()) status.summary(DiagnosticStatus::STALE, "no tool pose to predict from");
   if (state_.monitor.disabledBy()) status.summary(DiagnosticStatus::WARN, "disabled: nothing is predicted");
   status.add("predictor", predictor);
+  status.add("source", newest.from_command ? "command" : "measured");
   status.addf("horizon [s]", "reflex %g, considered %g", toSeconds(horizon.reflex), toSeconds(horizon.considered));
   status.add("predictions", statistics_.predictions_total);
   status.add("deadlines missed", statistics_.late_predictions_total);

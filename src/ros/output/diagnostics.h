@@ -51,6 +51,7 @@ class Diagnostics {
   void pose(Status& status);
   void mesh(Status& status);
   void vertices(Status& status);
+  void command(Status& status);
   void input(Status& status, const Input& input, Counts& previous) const;
   void camera(Status& status, const CameraInput& camera, Counts& previous) const;
   void workpieces(Status& status) const;
@@ -68,6 +69,7 @@ class Diagnostics {
   Counts poses_;  // at the end of the last period
   Counts meshes_;
   Counts vertices_;
+  Counts commands_;
   sweep_guard_core::RepeatedPositions::Counts repeated_;
   sweep_guard_core::StageTimes stage_times_{};
   sweep_guard_core::SteadyTime stages_read_ = std::chrono::steady_clock::now();

@@ -237,6 +237,7 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
       "timing/mesh_timeout", 0.5, {0.01, kInfinity, "s"},
       "An older workpiece makes the warning UNKNOWN. .inf (inf on a command line): workpieces do not age."));
   parameters.guard.predictor = readPredictor(read);
+  readCommandSource(read, parameters);
   parameters.guard.horizon = readHorizon(read, parameters.limits.pose_timeout);
   parameters.limits.reflex = parameters.guard.horizon.reflex;
   parameters.limits.considered = parameters.guard.horizon.considered;

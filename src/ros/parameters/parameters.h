@@ -19,6 +19,9 @@ namespace sweep_guard_ros {
 
 enum class ToolSource { kTopic, kTf, kJointStates };
 
+/// Type of what goes to the robot.
+enum class CommandSource { kNone, kPoseStamped, kTwistStamped, kTwist, kJointJog };
+
 /// What happens if the detector fails its test at the start.
 enum class SelfTest { kNone, kUnknown, kExit };
 
@@ -53,7 +56,9 @@ struct Parameters {
   std::vector<LinkShape> link_shapes;  ///< what each link is made of, without what is attached; none of a cylinder
   sweep_guard_core::DetectorChoice detector;  ///< as configured, until it is replaced by one that is available
   SelfTest self_test;
-  int cross_check;  ///< one query of the detector out of this many is asked twice; 0: none
+  int cross_check;             ///< one query of the detector out of this many is asked twice; 0: none
+  CommandSource command_type;  ///< of what goes to the robot
+  std::string command_topic;
   sweep_guard_core::GuardOptions guard;
   sweep_guard_core::WarningLimits limits;
   double acknowledge_distance;  ///< [m]

@@ -226,4 +226,25 @@ void readRobotLinks(ParameterReader& read, const Parameters* before, Parameters&
   }
 }
 
+void readCommandSource(ParameterReader& read, Parameters& parameters) {
+  const std::map<std::string, CommandSource> types = {{"none", CommandSource::kNone},
+                                                      {"pose_stamped", CommandSource::kPoseStamped},
+                                                      {"twist_stamped", CommandSource::kTwistStamped},
+                                                      {"twist", CommandSource::kTwist},
+                                                      {"joint_jog", CommandSource::kJointJog}};
+  const CommandSource type = types.at(read.choice(
+      "prediction/command_type", "none", {"none", "pose_stamped", "twist_stamped", "twist", "joint_jog"},
+      "Type of what goes to the robot, from which `direct` predicts, too: geometry_msgs/PoseStamped, TwistStamped or "
+      "Twist (along the axes of fixed_frame) of tool_frame [m, m/s, rad/s], or velocities of joints as "
+      "control_msgs/JointJog. none: nothing is listened to."));
+  parameters.command_type = type;
+  parameters.command_topic = read.name("prediction/command_topic", "command",
+                                       "Topic of what goes to the robot: with motion_guard its guarded_command.");
+  const bool of_joints = type == CommandSource::kJointJog;
+  if (of_joints && !parameters.articulated)
+    throw sweep_guard_core::InvalidInput("prediction/command_type: no joint moves the tool: use another one");
+  if (!of_joints && type != CommandSource::kNone && parameters.tool_source == ToolSource::kJointStates)
+    throw sweep_guard_core::InvalidInput("prediction/command_type: joints move the tool: use joint_jog or none");
+}
+
 }  // namespace sweep_guard_ros

@@ -14,4 +14,8 @@ void readTool(ParameterReader& read, const Parameters* before, Parameters& param
 /// @param parameters  gets them, or why there are none
 void readRobotLinks(ParameterReader& read, const Parameters* before, Parameters& parameters);
 
+/// Reads topic and type of what goes to the robot. After readTool().
+/// @throws sweep_guard_core::InvalidInput if the type does not fit the tool
+void readCommandSource(ParameterReader& read, Parameters& parameters);
+
 }  // namespace sweep_guard_ros

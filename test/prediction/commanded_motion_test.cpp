@@ -1,0 +1,179 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "prediction/predictors.h"
+#include "sweep_guard/prediction/joint_predictor.h"
+
+namespace sweep_guard_core {
+namespace {
+
+constexpr double kPeriod = 0.01;    // [s]
+constexpr double kDeadTime = 0.07;  // [s]
+constexpr double kLag = 0.03;       // [s]
+
+// No operator's motion goes on at constant velocity for long.
+double wantedAt(double t) {
+  return 0.1 * std::sin(2.0 * t) + 0.04 * std::sin(5.3 * t + 1.0) + 0.02 * std::sin(9.1 * t);
+}
+double wantedSpeedAt(double t) {
+  return 0.2 * std::cos(2.0 * t) + 0.212 * std::cos(5.3 * t + 1.0) + 0.182 * std::cos(9.1 * t);
+}
+
+// A robot that follows a coordinate after a dead time and with a lag, in steps of 1 ms.
+class Plant {
+ public:
+  double at(double t) {
+    for (; time_ + 5e-4 < t; time_ += 1e-3) position_ += 1e-3 / kLag * (wantedAt(time_ - kDeadTime) - position_);
+    return position_;
+  }
+
+ private:
+  double time_ = -3.0;
+  double position_ = wantedAt(-3.0);
+};
+
+// Along z, and a turn about it.
+Eigen::Isometry3d poseOf(double coordinate) {
+  return Eigen::Translation3d(0.3, 0.0, coordinate) * Eigen::AngleAxisd(2.0 * coordinate, Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitX());
+}
+
+SentCommand poseCommand(double t) { return {at(t), poseOf(wantedAt(t))}; }
+SentCommand twistCommand(double t) {
+  CommandedTwist command;
+  command.twist << 0.0, 0.0, wantedSpeedAt(t), 0.0, 0.0, 2.0 * wantedSpeedAt(t);
+  return {at(t), command};
+}
+SentCommand twistOfTool(double t) {
+  SentCommand command = twistCommand(t);
+  auto& commanded = std::get<CommandedTwist>(command.value);
+  const Eigen::Matrix3d R_TW = poseOf(wantedAt(t)).linear().transpose();
+  commanded.twist << R_TW * commanded.twist.head<3>(), R_TW * commanded.twist.tail<3>();
+  commanded.of_tool = true;
+  return command;
+}
+
+using CommandAt = std::function<SentCommand(double)>;
+
+PosePredictor toldUntil(double end, const CommandAt& command) {
+  PosePredictor predictor(optionsOf("direct"));
+  Plant plant;
+  for (int i = 0; i * kPeriod < end; ++i) {
+    if (command) predictor.command(command(i * kPeriod));
+    predictor.observe({at(i * kPeriod), poseOf(plant.at(i * kPeriod))});
+  }
+  return predictor;
+}
+
+// Mean distance from where the tool is so long after each pose from second 20 on [m].
+double meanError(double ahead, const CommandAt& command) {
+  PosePredictor predictor(optionsOf("direct"));
+  Plant plant;
+  Plant later;
+  PredictedPath path;
+  double sum = 0.0;
+  int count = 0;
+  for (int i = 0; i < 3000; ++i) {
+    if (command) predictor.command(command(i * kPeriod));
+    predictor.observe({at(i * kPeriod), poseOf(plant.at(i * kPeriod))});
+    const Eigen::Vector3d then = poseOf(later.at(i * kPeriod + ahead)).translation();
+    predictor.predict({fromSeconds(ahead)}, path);
+    if (i < 2000) continue;
+    sum += (path.front().X_WT.translation() - then).norm();
+    ++count;
+  }
+  return sum / count;
+}
+
+TEST(CommandedMotionTest, ThePoseSentIsWhereTheToolWillBeAfterDeadTimeAndLag) {
+  EXPECT_LT(meanError(0.1, poseCommand), 0.15 * meanError(0.1, {}));
+  EXPECT_LT(meanError(0.2, poseCommand), 0.6 * meanError(0.2, {}));
+}
+
+TEST(CommandedMotionTest, ATwistSentIsHowItWillMove) {
+  EXPECT_LT(meanError(0.1, twistCommand), 0.4 * meanError(0.1, {}));
+  EXPECT_NEAR(meanError(0.1, twistOfTool), meanError(0.1, twistCommand), 1e-4);
+}
+
+TEST(CommandedMotionTest, TheCovarianceIsThatOfItsOwnErrors) {
+  PredictedPath told;
+  PredictedPath measured;
+  toldUntil(20.0, poseCommand).predict({fromSeconds(0.1)}, told);
+  toldUntil(20.0, {}).predict({fromSeconds(0.1)}, measured);
+  EXPECT_LT(told.front().covariance.trace(), 0.1 * measured.front().covariance.trace());
+}
+
+TEST(CommandedMotionTest, CountsOnceCommandsHaveComeForASecond) {
+  EXPECT_FALSE(toldUntil(0.9, poseCommand).usesCommand());
+  EXPECT_TRUE(toldUntil(1.1, poseCommand).usesCommand());
+  EXPECT_FALSE(toldUntil(5.0, {}).usesCommand());
+}
+
+TEST(CommandedMotionTest, SilentForThreePeriodsItIsForgottenForASecond) {
+  const auto until_5 = [](double t) { return t < 5.0 ? poseCommand(t) : SentCommand{at(t), CommandedJoints{}}; };
+  EXPECT_TRUE(toldUntil(5.025, until_5).usesCommand());
+  EXPECT_FALSE(toldUntil(5.045, until_5).usesCommand());
+  const auto paused = [](double t) {
+    return t < 5.0 || t > 5.1 ? poseCommand(t) : SentCommand{at(t), CommandedJoints{}};
+  };
+  EXPECT_FALSE(toldUntil(6.05, paused).usesCommand());
+  EXPECT_TRUE(toldUntil(6.2, paused).usesCommand());
+}
+
+TEST(CommandedMotionTest, OnceForgottenThePredictionIsAsIfNothingHadBeenSent) {
+  const auto until_5 = [](double t) { return t < 5.0 ? poseCommand(t) : SentCommand{at(t), CommandedJoints{}}; };
+  PredictedPath told;
+  PredictedPath measured;
+  toldUntil(6.0, until_5).predict(kAhead, told);
+  toldUntil(6.0, {}).predict(kAhead, measured);
+  for (size_t i = 0; i < kAhead.size(); ++i) {
+    EXPECT_EQ(told[i].X_WT.matrix(), measured[i].X_WT.matrix());
+    EXPECT_EQ(told[i].covariance, measured[i].covariance);
+  }
+}
+
+TEST(CommandedMotionTest, ARobotThatDoesNotDoWhatWasSentEndsItAtOnce) {
+  PosePredictor predictor(optionsOf("direct"));
+  Plant plant;
+  double stopped = 0.0;
+  for (int i = 0; i < 1015; ++i) {
+    const double t = i * kPeriod;
+    predictor.command(poseCommand(t));
+    if (t < 10.0) stopped = plant.at(t);
+    predictor.observe({at(t), poseOf(stopped)});
+    if (i == 999) EXPECT_TRUE(predictor.usesCommand());
+  }
+  EXPECT_FALSE(predictor.usesCommand());
+}
+
+TEST(CommandedMotionTest, NoOtherPredictorHearsOfIt) {
+  PosePredictor predictor(optionsOf("constant_velocity"));
+  for (int i = 0; i < 300; ++i) {
+    predictor.command(poseCommand(i * kPeriod));
+    predictor.observe({at(i * kPeriod), poseOf(wantedAt(i * kPeriod))});
+  }
+  EXPECT_FALSE(predictor.usesCommand());
+}
+
+TEST(CommandedMotionTest, VelocitiesSentPredictTheJointsTheyAreFor) {
+  JointPredictor told(optionsOf("direct"), {{"first"}, {"second"}});
+  JointPredictor measured(optionsOf("direct"), {{"first"}, {"second"}});
+  Plant plant;
+  for (int i = 0; i < 2000; ++i) {
+    const double t = i * kPeriod;
+    told.command({at(t), CommandedJoints{{wantedSpeedAt(t), std::numeric_limits<double>::quiet_NaN()}}});
+    for (JointPredictor* const predictor : {&told, &measured}) predictor->observe(at(t), {plant.at(t), plant.at(t)});
+  }
+  EXPECT_TRUE(told.usesCommand());
+  PredictedJoints with;
+  PredictedJoints without;
+  told.predict(fromSeconds(0.1), with);
+  measured.predict(fromSeconds(0.1), without);
+  EXPECT_LT(with.variances[0], 0.3 * without.variances[0]);
+  EXPECT_EQ(with.positions[1], without.positions[1]);
+}
+
+}  // namespace
+}  // namespace sweep_guard_core
