@@ -80,6 +80,10 @@ class Guard {
   /// @param frames  not null
   void follow(std::shared_ptr<const FrameMotions> frames) { frames_ = std::move(frames); }
 
+  /// Sets the trajectory that the joints follow, for predictions from the next one on: see MotionPredictor.
+  /// @param trajectory  of the joints of the robot (not checked); null: none is known
+  void setTrajectory(std::shared_ptr<const JointTrajectory> trajectory) { trajectory_ = std::move(trajectory); }
+
   /// Takes the last sweep back, because its report was lost or sweep() threw: the next one begins where it began. Not
   /// after later calls of pass().
   void takeBack() noexcept;
@@ -165,6 +169,7 @@ class Guard {
   const std::shared_ptr<const Intentions> no_intentions_;
   std::shared_ptr<const Intentions> intentions_;
   std::shared_ptr<const FrameMotions> frames_ = std::make_shared<const FrameMotions>();
+  std::shared_ptr<const JointTrajectory> trajectory_;
 };
 
 /// A prediction under way. Its Guard must outlive it.
