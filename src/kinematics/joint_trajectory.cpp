@@ -95,6 +95,37 @@ TrajectoryPoint restingPoint(const KinematicTree& tree, const TrajectoryPlan& pl
   return point;
 }
 
+// Keeps the ends, and what lies more than a tolerance off the straight lines between those kept.
+SampledPositions thinned(const SampledPositions& all, double tolerance) {
+  using Slopes =
+      std::pair<double, double>;  // the lowest and the highest [1/s] of a line that passes all since the last kept
+  SampledPositions kept;
+  std::vector<Slopes> slopes;
+  const auto keep = [&](size_t i) {
+    kept.times.push_back(all.times[i]);
+    kept.positions.push_back(all.positions[i]);
+    slopes.assign(all.positions[i].size(), {-HUGE_VAL, HUGE_VAL});
+  };
+  const auto slope = [&](size_t i, size_t joint) {
+    return (all.positions[i][joint] - kept.positions.back()[joint]) / toSeconds(all.times[i] - kept.times.back());
+  };
+  keep(0);
+  for (size_t i = 1; i < all.times.size(); ++i) {
+    bool fits = true;
+    for (size_t joint = 0; joint < slopes.size(); ++joint)
+      fits = fits && slope(i, joint) >= slopes[joint].first && slope(i, joint) <= slopes[joint].second;
+    if (!fits) keep(i - 1);
+    const double spread = tolerance / toSeconds(all.times[i] - kept.times.back());
+    for (size_t joint = 0; joint < slopes.size(); ++joint) {
+      auto& [lowest, highest] = slopes[joint];
+      lowest = std::max(lowest, slope(i, joint) - spread);
+      highest = std::min(highest, slope(i, joint) + spread);
+    }
+  }
+  if (all.times.size() > 1) keep(all.times.size() - 1);
+  return kept;
+}
+
 }  // namespace
 
 SampledPositions sampled(const TrajectoryPlan& plan) {
@@ -169,7 +200,7 @@ SampledPositions JointTrajectory::rest(Time now, const std::vector<double>& meas
     rest.times.push_back(ahead);
     predict(now, measured, ahead, rest.positions.emplace_back(measured), variances);
   }
-  return rest;
+  return thinned(rest, kLeastDeviation);
 }
 
 }  // namespace sweep_guard_core

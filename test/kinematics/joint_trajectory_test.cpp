@@ -178,11 +178,33 @@ TEST_F(JointTrajectoryTest, IsFollowedWithALagOf200Milliseconds) {
 TEST_F(JointTrajectoryTest, TheRestBeginsWhereTheJointsAreAndEndsWithThePlan) {
   const auto trajectory = begun({{"shoulder"}, {{{}, {0.0}}, {milliseconds(100), {0.1}}}});
   const auto rest = trajectory.rest(kBegin + milliseconds(50), {0.04, 0.5, 0.0});
-  EXPECT_EQ(rest.times, (std::vector<Duration>{{}, milliseconds(10), milliseconds(30), milliseconds(50)}));
+  EXPECT_EQ(rest.times, (std::vector<Duration>{{}, milliseconds(50)}));
   EXPECT_EQ(rest.positions[0], (std::vector<double>{0.04, 0.5, 0.0}));
-  EXPECT_NEAR(rest.positions[3][0], 0.1 - 0.01 * std::exp(-0.5), 1e-9);
-  EXPECT_EQ(rest.positions[3][1], 0.5);
+  EXPECT_NEAR(rest.positions[1][0], 0.1 - 0.01 * std::exp(-0.5), 1e-9);
+  EXPECT_EQ(rest.positions[1][1], 0.5);
   EXPECT_EQ(trajectory.rest(kBegin + milliseconds(100), {0.1, 0.5, 0.0}).times.size(), 1U);
+}
+
+// A smooth motion with a corner: few states are left of 150, which are straight in between.
+TEST_F(JointTrajectoryTest, TheRestHasFewStatesAndLeavesThePlanByNoMoreThanAMilliradian) {
+  const auto trajectory = begun({{"shoulder", "rail"},
+                                 {{{}, {0.0, 0.0}, {0.0, 0.0}},
+                                  {milliseconds(1000), {0.8, 0.1}, {0.5, 0.0}},
+                                  {milliseconds(2000), {1.0, -0.1}, {0.0, 0.0}},
+                                  {milliseconds(3000), {-1.0, 0.3}}}});
+  const auto rest = trajectory.rest(kBegin, {0.0, 0.0, 0.0});
+  EXPECT_LT(rest.times.size(), 50U);
+  EXPECT_EQ(rest.times.back(), milliseconds(3000));
+  for (size_t i = 1; i < rest.times.size(); ++i) {
+    for (double share = 0.05; share < 1.0; share += 0.1) {
+      const double ahead = (1.0 - share) * toSeconds(rest.times[i - 1]) + share * toSeconds(rest.times[i]);
+      const auto planned_there = predicted(trajectory, 0.0, {0.0, 0.0, 0.0}, ahead);
+      for (size_t joint = 0; joint < 2; ++joint) {
+        const double tested = (1.0 - share) * rest.positions[i - 1][joint] + share * rest.positions[i][joint];
+        EXPECT_NEAR(tested, planned_there[joint], 1e-3 + 1e-9) << ahead;
+      }
+    }
+  }
 }
 
 }  // namespace

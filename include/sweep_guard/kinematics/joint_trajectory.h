@@ -58,7 +58,7 @@ class JointTrajectory {
   void predict(Time now, const std::vector<double>& measured, Duration ahead, std::vector<double>& positions,
                std::vector<double>& variances) const;
 
-  /// Returns what is left: the positions now, and those predicted for each later sample. Other joints stay.
+  /// Returns what is left, to within 1e-3 rad or m: from the positions now to those predicted for the end. Other joints stay.
   SampledPositions rest(Time now, const std::vector<double>& measured) const;
 
  private:
