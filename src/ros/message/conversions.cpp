@@ -264,6 +264,8 @@ sweep_guard::Prediction toMsg(const sweep_guard_core::Prediction& prediction, sw
       if (pose.ahead > age) body.poses.push_back(toMsg(pose, age));
     }
   }
+  const bool of_trajectory = prediction.source == sweep_guard_core::PredictionSource::kTrajectory;
+  msg.prediction_source = of_trajectory ? "trajectory" : "measured";
   msg.sweeps_asked = static_cast<std::uint32_t>(prediction.sweeps_asked);
   msg.sweeps_made = static_cast<std::uint32_t>(prediction.sweeps_made);
   msg.valid = prediction.complete();
