@@ -23,8 +23,8 @@ void BodyPrediction::begin(const BodyPredictionRequest& request, Prediction& pre
   prediction.stamp = motion.from.stamp;
   prediction.path = motion.path;
   prediction.body_paths = motion.body_paths;
+  prediction.source = motion.source;
   prediction.reflex_sweeps = motion.reflex_sweeps;
-  prediction.from_command = motion.from_command;
   prediction.sweeps_asked = motion.path.size();
   prediction.sweeps_made = request.plan.sweepCount(motion.path);
   prediction.unplaced.clear();

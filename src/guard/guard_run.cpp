@@ -51,6 +51,7 @@ PredictedMotion Guard::predictMotion(Duration age, Duration end) const {
   const Horizon horizon = horizonUpTo(end, options_.horizon, age);
   PredictedMotion motion{*newest_, {}};
   motion.frames = frames_;
+  motion.trajectory = trajectory_;
   predictor_.predict(horizon, motion);
   return motion;
 }
@@ -69,6 +70,7 @@ void Guard::Run::begin(Duration age, const Workpieces& workpieces, Prediction& p
   step_begin_ = guard_.options_.clock();
   computeHorizon(guard_.options_.horizon, age, horizon_);
   assign(motion_.from, *guard_.newest_);
+  motion_.trajectory = guard_.trajectory_;
   guard_.predictor_.predict(horizon_, motion_);
   motion_.frames = guard_.frames_;
   intentions_ = guard_.intentions();

@@ -61,15 +61,25 @@ void MotionPredictor::predict(const Horizon& horizon, PredictedMotion& motion) c
   motion.body_paths.resize(robot_ ? robot_->bodies.size() : 0);
   for (PredictedPath& path : motion.body_paths) path.clear();
   motion.path.clear();
-  motion.from_command = tool_.usesCommand() || (joints_ && joints_->usesCommand());
+  const bool from_command = tool_.usesCommand() || (joints_ && joints_->usesCommand());
+  motion.source = from_command ? PredictionSource::kCommand : PredictionSource::kMeasured;
   if (joints_ && !joints_->knowsMotion()) return;
   tool_.predict(horizon.ends, motion.path);
   motion.reflex_sweeps = horizon.reflex_sweeps;
   if (!joints_ || motion.path.empty()) return;
-  const Horizon shorter = cut(horizon, statesAlong(motion));
+  const PoseWithFrames& from = motion.from;
+  if (motion.trajectory && motion.trajectory->isFollowed(from.stamp, from.state.positions))
+    motion.source = PredictionSource::kTrajectory;
+  const Horizon shorter = cut(horizon, motion);
   tool_.predict(shorter.ends, motion.path);
   motion.reflex_sweeps = shorter.reflex_sweeps;
   predictBodies(motion);
+}
+
+void MotionPredictor::predictJoints(const PredictedMotion& motion, Duration ahead, PredictedJoints& joints) const {
+  joints_->predict(ahead, joints);
+  if (motion.source != PredictionSource::kTrajectory) return;
+  motion.trajectory->predict(motion.from.stamp, motion.from.state.positions, ahead, joints.positions, joints.variances);
 }
 
 // The first is that of the newest pose. The tool frame and the root are one rigid body.
@@ -78,20 +88,23 @@ std::vector<RobotState> MotionPredictor::statesAlong(const PredictedMotion& moti
   std::vector<RobotState> states = {motion.from.state};
   PredictedJoints joints;
   for (const PredictedPose& pose : motion.path) {
-    joints_->predict(pose.ahead, joints);
+    predictJoints(motion, pose.ahead, joints);
     states.push_back({pose.X_WT * X_TR, joints.positions});
   }
   return states;
 }
 
-Horizon MotionPredictor::cut(const Horizon& horizon, const std::vector<RobotState>& states) const {
+Horizon MotionPredictor::cut(const Horizon& horizon, const PredictedMotion& motion) const {
+  const std::vector<RobotState> states = statesAlong(motion);
+  const bool planned = motion.source == PredictionSource::kTrajectory;
   Horizon shorter;
   Duration begin{};
   for (size_t i = 0; i < horizon.ends.size(); ++i) {
     const bool reflex = i < horizon.reflex_sweeps;
     const RobotMotion step(robot_->tree, robot_->bodies, states[i], states[i + 1]);
-    const auto parts =
-        static_cast<Duration::rep>(step.partsFor(reflex ? kReflexDeviation : kConsideredDeviation, kMostParts));
+    const Duration::rep samples = planned ? (horizon.ends[i] - begin - Duration(1)) / kTrajectoryStep + 1 : 1;
+    const auto parts = std::max(samples, static_cast<Duration::rep>(step.partsFor(
+                                             reflex ? kReflexDeviation : kConsideredDeviation, kMostParts)));
     for (Duration::rep part = 1; part < parts; ++part)
       shorter.ends.push_back(begin + (horizon.ends[i] - begin) * part / parts);
     begin = horizon.ends[i];
@@ -109,7 +122,7 @@ void MotionPredictor::predictBodies(PredictedMotion& motion) const {
   for (size_t i = 0; i < motion.path.size(); ++i) {
     const auto& [ahead, X_WT, covariance, none] = motion.path[i];
     const RobotState& state = states[i + 1];
-    joints_->predict(ahead, joints);
+    predictJoints(motion, ahead, joints);
     robot_->tree.poses(state.positions, X_RL);
     const RobotMotion step(robot_->tree, robot_->bodies, states[i], state);
     const auto variances =

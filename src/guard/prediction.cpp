@@ -50,6 +50,17 @@ double largestWith(double probability, const Function& probability_at) {
 
 }  // namespace
 
+const char* textOf(PredictionSource source) {
+  switch (source) {
+    case PredictionSource::kCommand:
+      return "command";
+    case PredictionSource::kTrajectory:
+      return "trajectory";
+    default:
+      return "measured";
+  }
+}
+
 double probabilityWithin(PredictionInterval interval, double deviations) {
   if (deviations > kMaxDeviations) return 0.0;
   const auto after = [=](const CalibrationKnot& knot) { return knot.deviations > deviations; };

@@ -6,6 +6,7 @@
 
 #include "common/guarded_by.h"
 #include "sweep_guard/common/time.h"
+#include "sweep_guard/guard/prediction.h"
 
 namespace sweep_guard_core {
 
@@ -13,13 +14,13 @@ namespace sweep_guard_core {
 class SweepStatistics {
  public:
   struct PredictionTiming {
-    Duration latency{};         ///< from the received pose to the sent warning
-    Duration time{};            ///< time taken by the prediction and its sweeps
-    size_t sweeps_made = 0;     ///< 0: the motion is not known yet
-    size_t sweeps_asked = 0;    ///< number of configured steps
-    Duration covered{};         ///< length of the tested path, from the moment of the prediction
-    double probability = 0.0;   ///< of contact within the considered interval, in [0, 1]
-    bool from_command = false;  ///< predicted from what goes to the robot
+    Duration latency{};        ///< from the received pose to the sent warning
+    Duration time{};           ///< time taken by the prediction and its sweeps
+    size_t sweeps_made = 0;    ///< 0: the motion is not known yet
+    size_t sweeps_asked = 0;   ///< number of configured steps
+    Duration covered{};        ///< length of the tested path, from the moment of the prediction
+    double probability = 0.0;  ///< of contact within the considered interval, in [0, 1]
+    PredictionSource source = PredictionSource::kMeasured;
   };
   struct Summary {
     std::uint64_t sweeps_total = 0;            ///< poses swept since the start or restart()

@@ -224,6 +224,46 @@ TEST(MotionPredictorTest, StepsInWhichABodyLeavesItsMotionAreCutAndSaySo) {
   EXPECT_GT(largest, 1e-4);
 }
 
+// The elbow turns back after 0.3 s, which nothing measured tells.
+TEST(MotionPredictorTest, ATrajectoryUnderWayIsPredictedInStepsOf20Milliseconds) {
+  const auto robot = planarArm();
+  const StateAt truth = [](double t) {
+    return RobotState{Eigen::Isometry3d::Identity(), {0.0, t < 0.8 ? t : 1.6 - t}};
+  };
+  const TrajectoryPlan plan{
+      {"elbow"}, {{{}, {0.0}}, {milliseconds(800), {0.8}}, {milliseconds(1600), {0.0}}, {milliseconds(2600), {-1.0}}}};
+  MotionPredictor predictor(optionsOf("constant_velocity"), robot);
+  PredictedMotion motion = predicted(predictor, *robot, truth, 0.5);
+  EXPECT_EQ(motion.source, PredictionSource::kMeasured);
+  const double measured_variance = motion.body_paths[1].back().covariance.trace();
+  motion.trajectory = std::make_shared<const JointTrajectory>(robot->tree, JointsBesideTree(), plan, atSecond(1000.0),
+                                                              motion.from.state.positions);
+  predictor.predict(horizonNow(), motion);
+  EXPECT_EQ(motion.source, PredictionSource::kTrajectory);
+  Duration before{};
+  for (size_t i = 0; i < motion.path.size(); ++i) {
+    const PredictedPose& pose = motion.body_paths[1][i];
+    const PoseWithFrames then = poseAt(*robot, 0.0, truth(0.5 + toSeconds(pose.ahead)));
+    EXPECT_LT(displacement(pose.X_WT, then.bodies[1].X_WB).norm(), 1e-6) << toSeconds(pose.ahead);
+    EXPECT_LE(pose.ahead - before, kTrajectoryStep);
+    before = pose.ahead;
+  }
+  EXPECT_LT(motion.body_paths[1].back().covariance.trace(), 0.1 * measured_variance);
+}
+
+TEST(MotionPredictorTest, ARobotThatLeavesItsTrajectoryIsPredictedAsMeasured) {
+  const auto robot = planarArm();
+  const StateAt rests = [](double) { return RobotState{Eigen::Isometry3d::Identity(), {0.0, 0.0}}; };
+  MotionPredictor predictor(optionsOf("constant_velocity"), robot);
+  PredictedMotion motion = predicted(predictor, *robot, rests, 0.5);
+  motion.trajectory = std::make_shared<const JointTrajectory>(
+      robot->tree, JointsBesideTree(), TrajectoryPlan{{"elbow"}, {{{}, {0.0}}, {milliseconds(1000), {1.0}}}},
+      atSecond(1000.0), motion.from.state.positions);
+  predictor.predict(horizonNow(), motion);
+  EXPECT_EQ(motion.source, PredictionSource::kMeasured);
+  EXPECT_LT(displacement(motion.body_paths[1].back().X_WT, motion.from.bodies[1].X_WB).norm(), 1e-9);
+}
+
 TEST(MotionPredictorTest, AllPathsAreEmptyUntilTheMotionOfEveryJointIsKnown) {
   const auto robot = planarArm();
   MotionPredictor predictor({}, robot);

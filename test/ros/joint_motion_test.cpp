@@ -8,13 +8,13 @@
 #include <sweep_guard/MotionStatus.h>
 #include <trajectory_msgs/JointTrajectory.h>
 
-#include <boost/uuid/detail/md5.hpp>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <limits>
 
 #include "drop_in_fixture.h"
+#include "message_md5.h"
 #include "refusal.h"
 #include "ros/child_process.h"
 #include "ros/input/joint_jog.h"
@@ -246,22 +246,11 @@ TEST_F(JointMotionTest, ARobotWithoutADescriptionEndsTheNodeWithOneLine) {
   EXPECT_TRUE(has(node.output(), "there is no robot description in the parameter 'none'"));
 }
 
-// As ROS computes it: from the definition, in which the md5 of each type stands for its name.
 TEST(JointJogTest, HasTheMd5OfTheOriginalDefinition) {
-  const std::string definition =
-      std::string(ros::message_traits::MD5Sum<std_msgs::Header>::value()) +
-      " header\nstring[] joint_names\nfloat64[] displacements\nfloat64[] velocities\nfloat64 duration";
-  boost::uuids::detail::md5 hash;
-  hash.process_bytes(definition.data(), definition.size());
-  boost::uuids::detail::md5::digest_type digest;
-  hash.get_digest(digest);
-  std::string hex;
-  for (const unsigned int word : digest) {
-    char text[9];
-    std::snprintf(text, sizeof text, "%08x", word);
-    hex += text;
-  }
-  EXPECT_EQ(hex, ros::message_traits::MD5Sum<JointJog>::value());
+  const std::string definition = md5<std_msgs::Header>() +
+                                 " header\nstring[] joint_names\nfloat64[] displacements\nfloat64[] velocities\n"
+                                 "float64 duration";
+  EXPECT_EQ(md5Of(definition), md5<JointJog>());
   EXPECT_STREQ(ros::message_traits::DataType<JointJog>::value(), "control_msgs/JointJog");
 }
 

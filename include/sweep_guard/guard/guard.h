@@ -84,6 +84,10 @@ class Guard {
   /// @param command  finite, rotation orthonormal, CommandedJoints as many as the joints of the robot; not checked
   void command(const SentCommand& command) { predictor_.command(command); }
 
+  /// Sets the trajectory that the joints follow, for predictions from the next one on: see MotionPredictor.
+  /// @param trajectory  of the joints of the robot (not checked); null: none is known
+  void setTrajectory(std::shared_ptr<const JointTrajectory> trajectory) { trajectory_ = std::move(trajectory); }
+
   /// Takes the last sweep back, because its report was lost or sweep() threw: the next one begins where it began. Not
   /// after later calls of pass().
   void takeBack() noexcept;
@@ -169,6 +173,7 @@ class Guard {
   const std::shared_ptr<const Intentions> no_intentions_;
   std::shared_ptr<const Intentions> intentions_;
   std::shared_ptr<const FrameMotions> frames_ = std::make_shared<const FrameMotions>();
+  std::shared_ptr<const JointTrajectory> trajectory_;
 };
 
 /// A prediction under way. Its Guard must outlive it.

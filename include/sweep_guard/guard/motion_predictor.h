@@ -18,6 +18,8 @@ namespace sweep_guard_core {
 /// JointPredictor. The bodies of a robot are where its predicted joints put them, which is where they can go. Their
 /// covariances are those of frame and joints to first order, J * C * J^T with the geometric Jacobian J of each body, and
 /// what the arcs of the joints add to the position. The errors of the joints count as independent of each other.
+///
+/// The joints of a trajectory under way (PredictedMotion::trajectory) are predicted by it instead, as long as they follow it.
 class MotionPredictor {
  public:
   /// @param robot  of which joints move; null: a tool of one rigid body
@@ -31,12 +33,13 @@ class MotionPredictor {
   /// @param pose  of a robot: with the state of its joints; not checked
   void observe(const PoseWithFrames& pose);
 
-  /// Predicts the paths after the newest pose, which `motion.from` is, as PosePredictor::predict().
+  /// Predicts the paths after the newest pose, which `motion.from` is, as PosePredictor::predict(). Reads the trajectory of
+  /// `motion`.
   ///
   /// The bodies of a robot do not move as a Motion from pose to pose. A step of the horizon in which one deviates by more
   /// than 0.5 mm (in the reflex interval) or 5 mm (later) is cut into up to four; PredictedPose::deviation_bound has what
-  /// is left.
-  /// @param[out] motion  its paths and `reflex_sweeps` are overwritten, all or none of the paths empty
+  /// is left. Along a trajectory, no step is longer than kTrajectoryStep.
+  /// @param[in,out] motion  its paths, `reflex_sweeps` and `source` are overwritten, all or none of the paths empty
   void predict(const Horizon& horizon, PredictedMotion& motion) const;
 
   /// Forgets the poses, and keeps what was learned of the operator.
@@ -50,7 +53,8 @@ class MotionPredictor {
 
  private:
   std::vector<RobotState> statesAlong(const PredictedMotion& motion) const;
-  Horizon cut(const Horizon& horizon, const std::vector<RobotState>& states) const;
+  Horizon cut(const Horizon& horizon, const PredictedMotion& motion) const;
+  void predictJoints(const PredictedMotion& motion, Duration ahead, PredictedJoints& joints) const;
   void predictBodies(PredictedMotion& motion) const;
 
   PosePredictor tool_;

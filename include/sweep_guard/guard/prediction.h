@@ -11,6 +11,7 @@
 #include "sweep_guard/guard/frame_motion.h"
 #include "sweep_guard/guard/pose_with_frames.h"
 #include "sweep_guard/guard/workpiece.h"
+#include "sweep_guard/kinematics/joint_trajectory.h"
 #include "sweep_guard/prediction/pose_predictor.h"
 
 namespace sweep_guard_core {
@@ -31,14 +32,25 @@ double deviationsAt(PredictionInterval interval, double probability);
 /// 1 if there are none.
 double fromPlaneProbability(PredictionInterval interval, double plane_probability);
 
+/// What a path is predicted from.
+enum class PredictionSource {
+  kMeasured,    ///< the measured motion alone
+  kCommand,     ///< what goes to the robot, too
+  kTrajectory,  ///< the trajectory under way
+};
+
+/// Returns `measured`, `command` or `trajectory`.
+const char* textOf(PredictionSource source);
+
 /// The predicted motion of the tool after a pose, not yet tested for contacts.
 struct PredictedMotion {
-  PoseWithFrames from;        ///< newest measured pose; a default value before the first sweep
-  PredictedPath path;         ///< empty if the motion is not known yet
-  size_t reflex_sweeps = 0;   ///< number of poses in the reflex interval (HorizonOptions); meaningless without a path
-  bool from_command = false;  ///< predicted from what goes to the robot, not from the measured motion alone
-  std::vector<PredictedPath> body_paths = {};       ///< of each body of an articulated tool, at the same times
-  std::shared_ptr<const FrameMotions> frames = {};  ///< of those that move on their own; null: none
+  PoseWithFrames from;       ///< newest measured pose; a default value before the first sweep
+  PredictedPath path;        ///< empty if the motion is not known yet
+  size_t reflex_sweeps = 0;  ///< number of poses in the reflex interval (HorizonOptions); meaningless without a path
+  std::vector<PredictedPath> body_paths = {};              ///< of each body of an articulated tool, at the same times
+  std::shared_ptr<const FrameMotions> frames = {};         ///< of those that move on their own; null: none
+  std::shared_ptr<const JointTrajectory> trajectory = {};  ///< under way; null: none
+  PredictionSource source = PredictionSource::kMeasured;
 
   const PredictedPath& pathOf(size_t body) const { return body_paths.empty() ? path : body_paths[body]; }
 };
@@ -83,10 +95,10 @@ struct Prediction {
   Time stamp;          ///< stamp of the newest measured pose, where the path begins; 0: nothing was predicted
   PredictedPath path;  ///< of T; empty if the motion is not known yet
   std::vector<PredictedPath> body_paths;  ///< as PredictedMotion::body_paths
+  PredictionSource source = PredictionSource::kMeasured;
   size_t reflex_sweeps = 0;  ///< number of sweeps, from the first, in the reflex interval; means nothing without a path
-  bool from_command = false;             ///< as PredictedMotion::from_command
-  size_t sweeps_asked = 0;               ///< one for every pose of the path
-  size_t sweeps_made = 0;                ///< fewer if time was short: one sweep then covers several poses
+  size_t sweeps_asked = 0;   ///< one for every pose of the path
+  size_t sweeps_made = 0;    ///< fewer if time was short: one sweep then covers several poses
   std::vector<PredictedObject> objects;  ///< every workpiece tested; none if the path is empty
   /// Workpieces not tested because their frame is unknown at the newest pose, or of one that moves on its own, to the end.
   Workpieces unplaced;

@@ -285,7 +285,7 @@ void GuardSteps::endPrediction(const RunningPrediction& running) {
   dependencies_.statistics.predicted(
       {std::chrono::steady_clock::now() - pose.received, took, prediction.sweeps_made, prediction.sweeps_asked,
        prediction.coveredUntil() - prediction.stamp - running.age,
-       prediction.probability(PredictionInterval::kConsidered, considered), prediction.from_command});
+       prediction.probability(PredictionInterval::kConsidered, considered), prediction.source});
   reportFailures(prediction.failures);
   if (acknowledgements_.endWhereFar(predicted_with_, predictedFrom(pose, checkpoint_.epoch)))
     dependencies_.warnings.publishIfChanged();

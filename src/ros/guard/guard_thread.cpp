@@ -128,6 +128,10 @@ std::future<sweep_guard_core::PoseWithFrames> GuardThread::newestPose() {
   return dependencies_.queue.submit<sweep_guard_core::PoseWithFrames>([this] { return steps_.freshPose().pose; });
 }
 
+void GuardThread::setTrajectory(const std::shared_ptr<const sweep_guard_core::JointTrajectory>& trajectory) {
+  dependencies_.queue.submit<void>([this, trajectory] { steps_.guard().setTrajectory(trajectory); });
+}
+
 std::string GuardThread::acknowledge(const std::string& id) {
   std::string acknowledged;
   runInTime([&] { acknowledged = steps_.acknowledge(id); }, "nothing was acknowledged");

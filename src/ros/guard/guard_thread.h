@@ -48,6 +48,9 @@ class GuardThread {
                     const std::function<void()>& change_store);
   /// Returns the newest swept pose. Any thread. The future throws as GuardSteps::freshPose(), or std::future_error at shutdown.
   std::future<sweep_guard_core::PoseWithFrames> newestPose();
+  /// Sets the trajectory under way, as Guard::setTrajectory(). Does not wait. Any thread.
+  /// @throws sweep_guard_core::Error if too many tasks wait, or the guard is shutting down; then it is not set
+  void setTrajectory(const std::shared_ptr<const sweep_guard_core::JointTrajectory>& trajectory);
   /// Forgets poses, contacts, intentions and what was learned; keeps workpieces, parameters, touches and what is attached.
   /// Returns when that is done. Any thread.
   /// @throws sweep_guard_core::Error as apply(); then nothing is forgotten, also later

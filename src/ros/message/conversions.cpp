@@ -264,7 +264,7 @@ sweep_guard::Prediction toMsg(const sweep_guard_core::Prediction& prediction, sw
       if (pose.ahead > age) body.poses.push_back(toMsg(pose, age));
     }
   }
-  msg.prediction_source = prediction.from_command ? "command" : "measured";
+  msg.prediction_source = textOf(prediction.source);
   msg.sweeps_asked = static_cast<std::uint32_t>(prediction.sweeps_asked);
   msg.sweeps_made = static_cast<std::uint32_t>(prediction.sweeps_made);
   msg.valid = prediction.complete();

@@ -49,10 +49,12 @@ void reportRefusal(const Frames& frames, const std::string& user, diagnostic_upd
 }  // namespace
 
 Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, GuardState& state,
-                         const Inputs& inputs, const ReconfigureServer& reconfigure)
+                         const Inputs& inputs, const ReconfigureServer& reconfigure,
+                         const TrajectoryWatch& trajectory_watch)
     : state_(state),
       inputs_(inputs),
       reconfigure_(reconfigure),
+      trajectory_watch_(trajectory_watch),
       updater_(node, private_node, private_node.getNamespace()) {
   updater_.setHardwareID("none");
   updater_.add("warning", [this](Status& status) { warning(status); });
@@ -71,6 +73,8 @@ Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& pri
     updater_.add("other tools", [this](Status& status) { otherTools(status); });
   updater_.add("detector", [this](Status& status) { detector(status); });
   updater_.add("prediction", [this](Status& status) { prediction(status); });
+  if (!state.parameters.initial().trajectory_action.empty())
+    updater_.add("trajectory", [this](Status& status) { trajectory(status); });
   updater_.add("stages", [this](Status& status) { stages(status); });
   updater_.add("parameters", [this](Status& status) { parameters(status); });
   updater_.add("process", [this](Status& status) { process(status); });
@@ -285,7 +289,7 @@ void Diagnostics::prediction(Status& status) const {
   if (statistics_.prediction_times.empty()) status.summary(DiagnosticStatus::STALE, "no tool pose to predict from");
   if (state_.monitor.disabledBy()) status.summary(DiagnosticStatus::WARN, "disabled: nothing is predicted");
   status.add("predictor", predictor);
-  status.add("source", newest.from_command ? "command" : "measured");
+  status.add("source", textOf(newest.source));
   status.addf("horizon [s]", "reflex %g, considered %g", toSeconds(horizon.reflex), toSeconds(horizon.considered));
   status.add("predictions", statistics_.predictions_total);
   status.add("deadlines missed", statistics_.late_predictions_total);
@@ -294,6 +298,16 @@ void Diagnostics::prediction(Status& status) const {
               1e3 * quantile(statistics_.prediction_times, 1.0));
   status.addf("horizon covered [s]", "%.2f", toSeconds(newest.covered));
   status.addf("probability of contact within horizon/considered", "%.3f", newest.probability);
+}
+
+void Diagnostics::trajectory(Status& status) const {
+  const auto [newest, idle, took] = trajectory_watch_.summary();
+  status.summary(newest.clear || idle ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
+                 newest.clear ? "the rest is clear" : newest.text);
+  if (!newest.mesh_id.empty())
+    status.mergeSummaryf(DiagnosticStatus::WARN, "meets '%s' in %.2f s", newest.mesh_id.c_str(), newest.time.toSec());
+  status.add("action", state_.parameters.initial().trajectory_action);
+  status.addf("time of the test [ms]", "%.1f", 1e3 * toSeconds(took));
 }
 
 void Diagnostics::stages(Status& status) {

@@ -10,6 +10,7 @@
 #include "ros/guard/guard_state.h"
 #include "ros/input/inputs.h"
 #include "ros/parameters/reconfigure_server.h"
+#include "ros/service/trajectory_watch.h"
 #include "sweep_guard/common/time.h"
 
 namespace sweep_guard_ros {
@@ -22,12 +23,12 @@ void reportDetector(const sweep_guard_core::SweepStatistics::Summary& statistics
 void reportTool(const Parameters& parameters, diagnostic_updater::DiagnosticStatusWrapper& status);
 
 /// Publishes on /diagnostics the warning, each input (source, publishers, rate, age, last error), the tool, the cameras, the
-/// workpieces, which contact is allowed, other tools, the detector and its deadlines, the prediction, the time in each
+/// workpieces, which contact is allowed, other tools, the detector and its deadlines, the prediction, the trajectory under way, the time in each
 /// stage, the changed parameters, and the memory of the process.
 class Diagnostics {
  public:
   Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, GuardState& state, const Inputs& inputs,
-              const ReconfigureServer& reconfigure);
+              const ReconfigureServer& reconfigure, const TrajectoryWatch& trajectory_watch);
 
   /// Publishes now. To be called once a second.
   void publish();
@@ -59,6 +60,7 @@ class Diagnostics {
   void otherTools(Status& status) const;
   void detector(Status& status) const;
   void prediction(Status& status) const;
+  void trajectory(Status& status) const;
   void stages(Status& status);
   void parameters(Status& status) const;
   void process(Status& status) const;
@@ -66,6 +68,7 @@ class Diagnostics {
   GuardState& state_;
   const Inputs& inputs_;
   const ReconfigureServer& reconfigure_;
+  const TrajectoryWatch& trajectory_watch_;
   Counts poses_;  // at the end of the last period
   Counts meshes_;
   Counts vertices_;

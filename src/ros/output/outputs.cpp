@@ -7,6 +7,7 @@ namespace sweep_guard_ros {
 namespace {
 
 const sweep_guard_core::Duration kViewPeriod = sweep_guard_core::fromSeconds(1.0 / 60.0);
+constexpr auto kTestPeriod = std::chrono::milliseconds(20);
 constexpr auto kEarlyPeriod = std::chrono::milliseconds(100);
 constexpr auto kDiagnosticsPeriod = std::chrono::seconds(1);
 constexpr auto kTouchesPeriod = std::chrono::seconds(1);
@@ -30,6 +31,9 @@ Outputs::Outputs(const ros::NodeHandle& node, const ros::NodeHandle& private_nod
       path_tests_(dependenciesIn(state), &state.frame_motions),
       check_sweep_(private_node, "check_sweep", service_threads_, path_tests_, checkSweep),
       check_trajectory_(private_node, "check_trajectory", service_threads_, path_tests_, checkTrajectory),
+      trajectory_watch_(node, private_node, service_threads_, path_tests_,
+                        {[&guard] { return guard.thread().newestPose(); },
+                         [&guard](const auto& trajectory) { guard.thread().setTrajectory(trajectory); }}),
       predict_(private_node, service_threads_, state.parameters, state.workpieces,
                [&guard](sweep_guard_core::Duration horizon) { return guard.thread().predictMotion(horizon); }),
       controls_(private_node, state.parameters, state.monitor, state.workpieces, service_threads_,
@@ -44,7 +48,8 @@ Outputs::Outputs(const ros::NodeHandle& node, const ros::NodeHandle& private_nod
           }),
       reconfigure_server_(private_node, service_threads_, master, state.parameters,
                           [this](const auto& wanted) { apply(wanted); }),
-      diagnostics_(node, private_node, state, inputs, reconfigure_server_) {
+      diagnostics_(node, private_node, state, inputs, reconfigure_server_, trajectory_watch_) {
+  reports_.every(kTestPeriod, [this] { trajectory_watch_.testIfDue(); });
   reports_.every(kViewPeriod, [&state] { state.scene.publishView(); });
   reports_.every(kViewPeriod, [this] { intend_.publishIfChanged(); });
   reports_.every(kEarlyPeriod, [&inputs] { inputs.takeEarly(); });

@@ -14,6 +14,7 @@
 #include "ros/service/intend.h"
 #include "ros/service/predict.h"
 #include "ros/service/service_threads.h"
+#include "ros/service/trajectory_watch.h"
 #include "ros/threads/timer_thread.h"
 
 namespace sweep_guard_ros {
@@ -41,6 +42,7 @@ class Outputs {
   PathTests path_tests_;
   PathService check_sweep_;
   PathService check_trajectory_;
+  TrajectoryWatch trajectory_watch_;
   PredictService predict_;
   Controls controls_;
   IntendService intend_;

@@ -44,6 +44,7 @@ struct Parameters {
   sweep_guard_core::Duration joint_timeout;                          ///< of the others, and of the tool pose
   std::shared_ptr<const RobotModel> robot;  ///< whose links are the tool; null: nothing that joints move
   std::string why_no_robot;                 ///< why it is null
+  std::string trajectory_action;            ///< of the controller that moves the joints; empty: none is watched
   std::string robot_description;            ///< name of the parameter that holds the URDF
   int mesh_depth;                           ///< see ToolModelOptions
   std::vector<std::string> mesh_roots;      ///< see locateMesh()

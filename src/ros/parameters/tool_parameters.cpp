@@ -175,6 +175,15 @@ void readTool(ParameterReader& read, const Parameters* before, Parameters& param
   parameters.joint_timeouts = readJointTimeouts(read);
   parameters.guard.allowed = readAllowed(read);
   parameters.articulated = joint_states || parameters.tool_source == ToolSource::kJointStates;
+  parameters.trajectory_action = read.optionalName(
+      "trajectory/action",
+      "Action control_msgs/FollowJointTrajectory of the controller that moves the joints, as in "
+      "/arm_controller/follow_joint_trajectory: the trajectory under way is predicted, and its rest tested "
+      "(~trajectory). The joints of the tool must move (tool/joint_states).");
+  if (!parameters.trajectory_action.empty() && !parameters.articulated) {
+    throw sweep_guard_core::InvalidInput(
+        "trajectory/action: no joints of the tool move: set tool/joint_states, or tool_source joint_states");
+  }
   parameters.tool_padding = padding;
   if (before != nullptr) parameters.attached = before->attached;
   if (!parameters.attached.empty() && before->tool_padding != padding) {

@@ -37,8 +37,7 @@ std::string nameInModel(const std::string& joint, const Parameters& parameters) 
 }
 
 JointPlan planOf(const trajectory_msgs::JointTrajectory& trajectory, const Parameters& parameters) {
-  JointPlan plan;
-  for (const std::string& joint : trajectory.joint_names) plan.joints.push_back(nameInModel(joint, parameters));
+  JointPlan plan{namesInModel(trajectory.joint_names, parameters), {}};
   for (const auto& point : trajectory.points) plan.points.push_back(point.positions);
   return plan;
 }
@@ -53,9 +52,9 @@ PlannedPositions plannedBy(const trajectory_msgs::JointTrajectory& trajectory, c
 }
 
 // In the frame of the tool.
-std::vector<RobotState> statesOf(const PlannedPositions& plan, const RobotModel& model) {
+std::vector<RobotState> statesOf(const std::vector<std::vector<double>>& all, const RobotModel& model) {
   std::vector<RobotState> states;
-  for (const std::vector<double>& positions : plan.positions) states.push_back({model.X_TR, positions});
+  for (const std::vector<double>& positions : all) states.push_back({model.X_TR, positions});
   return states;
 }
 
@@ -126,17 +125,20 @@ Eigen::Isometry3d toolPoseIn(const PathTests& tests, const std::string& mesh_fra
 
 }  // namespace
 
-void checkTrajectory(PathTests& tests, sweep_guard_core::SteadyTime arrival, const CheckTrajectory::Request& request,
-                     CheckTrajectory::Response& response) {
-  const auto question = tests.question(request.volume, request.detector, request.margin, request.fine != 0, arrival);
+std::vector<std::string> namesInModel(const std::vector<std::string>& joints, const Parameters& parameters) {
+  std::vector<std::string> names;
+  for (const std::string& joint : joints) names.push_back(nameInModel(joint, parameters));
+  return names;
+}
+
+void checkPositions(PathTests& tests, const std::shared_ptr<PathQuestion>& question, const PositionsRequest& request,
+                    CheckTrajectory::Response& response) {
   const RobotModel& model = robotOf(*question->parameters);
-  const PlannedPositions plan = plannedBy(request.trajectory, *question->parameters);
-  const std::vector<RobotState> states = statesOf(plan, model);
   // Before the snapshot is taken: what is accepted later does not better it.
   const std::string doubts_before = tests.meshProblems(request.mesh_ids);
   const sweep_guard_core::Workpieces workpieces = tests.selected(*question, request.mesh_ids);
   question->go_on("the poses of the links");
-  const RobotPath path = robotPath(model.robot, states, kMaxDeviation);
+  const RobotPath path = robotPath(model.robot, statesOf(request.positions, model), request.max_deviation);
   for (const auto& workpiece : workpieces) {
     question->go_on("the transform of tool_pose");
     const Eigen::Isometry3d X_MT = toolPoseIn(tests, workpiece->frame, request.tool_pose);
@@ -151,6 +153,13 @@ void checkTrajectory(PathTests& tests, sweep_guard_core::SteadyTime arrival, con
                          : doubts_before;
   response.clear = !response.collision && response.message.empty();
   addRemarks(*question, response.message);
+}
+
+void checkTrajectory(PathTests& tests, sweep_guard_core::SteadyTime arrival, const CheckTrajectory::Request& request,
+                     CheckTrajectory::Response& response) {
+  const auto question = tests.question(request.volume, request.detector, request.margin, request.fine != 0, arrival);
+  const PlannedPositions plan = plannedBy(request.trajectory, *question->parameters);
+  checkPositions(tests, question, {plan.positions, request.tool_pose, request.mesh_ids, kMaxDeviation}, response);
   if (plan.remarks.empty()) return;
   response.message += (response.message.empty() ? "" : "; ") + plan.remarks;
 }
