@@ -29,6 +29,16 @@ double closingLimit(const FacingBall& ball, double acceleration, const BrakingLi
   return std::max(0.0, closing - std::max(0.0, ball.surface_speed));
 }
 
+double StopOnPath::share(double way) const {
+  return 2.0 * way / (reaction_time + std::sqrt(reaction_time * reaction_time + 2.0 * braking_time * way));
+}
+
+double timeUntilClosed(double gap, double closing, double acceleration) {
+  const double root = std::sqrt(closing * closing + 2.0 * acceleration * gap);
+  if (closing > 0.0) return 2.0 * gap / (closing + root);
+  return acceleration > 0.0 ? (root - closing) / acceleration : std::numeric_limits<double>::infinity();
+}
+
 double arcAcceleration(const Twist& twist_W, double tool_radius) {
   const double turn_rate = twist_W.w_W.norm();
   return tool_radius * turn_rate * turn_rate;

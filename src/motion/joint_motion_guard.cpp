@@ -14,6 +14,8 @@ constexpr size_t kRows = 8192;            // before buffers grow
 constexpr double kMaxJointSpeed = 1e6;    // of a command [rad/s], [m/s]
 constexpr double kAgreement = 1e-3;       // of the guard's robot and this one [m]
 constexpr double kJointRounding = 1e-11;  // of a closing speed, in commanded speeds of the fastest tool point
+constexpr int kMostSteps = 32;            // along the way of a command
+constexpr double kLeastStep = 1e-4;       // of the way
 
 void requireUsableCommand(const JointCommand& command, const std::vector<double>& positions, size_t variables) {
   const auto& velocities = command.velocities;
@@ -46,10 +48,12 @@ JointMotionGuard::JointMotionGuard(const MotionGuardOptions& options, std::share
       velocities_(static_cast<Eigen::Index>(tree_->variables().size())),
       swept_(tree_),
       measured_(tree_),
-      expected_(tree_) {
+      expected_(tree_),
+      later_(tree_) {
   requireUsable(options_);
   facing_.reserve(kRows);
   rows_.reserve(kRows);
+  later_rows_.reserve(kRows);
 }
 
 GuardedMotion JointMotionGuard::guard(const MotionInputs& inputs, const MeasuredJoints& joints,
@@ -62,13 +66,13 @@ GuardedMotion JointMotionGuard::guard(const MotionInputs& inputs, const Measured
   const BrakingLimits limits = options_.brakingLimits(command.period, age_of_inputs);
   motion.commanded_speed = command.velocities.isZero(0.0) ? 0.0 : std::numeric_limits<double>::quiet_NaN();
   if (inputs.tool && !joints.state.positions.empty() && hasLinksOf(*tree_, *inputs.tool)) {
-    measured_.place(joints.state, *inputs.tool, command.velocities, limits);
+    measured_.place(joints.state, *inputs.tool, command.velocities);
     motion.commanded_speed = measured_.fastest();
   }
   if (motion.decision.permission != Permission::kStop) {
     requireGuarded(*inputs.planes, command);
-    placeExpectedAndSwept(inputs, joints, command, limits, now);
-    limit(inputs, limits, motion);
+    placeExpectedAndSwept(inputs, joints, command, now);
+    limit(inputs, joints, command, limits, motion);
   }
   velocities_ = motion.scale * command.velocities;
   in_flight_.add(velocities_, now.steady);
@@ -81,6 +85,8 @@ PermissionDecision JointMotionGuard::permission(const MotionInputs& inputs, cons
   placed.pose.reset();
   if (!joints.state.positions.empty()) placed.pose = MotionInputs::ToolPose{joints.state.X_WR, joints.timestamps};
   const PermissionDecision decision = decidePermission(placed, command, now, options_);
+  if (decision.cause == PermissionCause::kNoPose && !inputs.planes)
+    return {Permission::kStop, PermissionCause::kNoPlanes};
   const bool decided = decision.permission == Permission::kStop && decision.cause != PermissionCause::kNoPose;
   if (decided || !inputs.planes || !inputs.toolIsKnown() || isPlacedBy(*tree_, *inputs.planes, *inputs.tool))
     return {decision.permission, ofJoints(decision.cause)};
@@ -103,18 +109,18 @@ void JointMotionGuard::stop(SteadyTime now) {
 }
 
 void JointMotionGuard::placeExpectedAndSwept(const MotionInputs& inputs, const MeasuredJoints& joints,
-                                             const JointCommand& command, const BrakingLimits& limits,
-                                             const Instant& now) {
-  state_ = joints.state;
+                                             const JointCommand& command, const Instant& now) {
+  expected_state_ = joints.state;
   in_flight_.addUp(now.steady, age(joints.timestamps, now) + options_.settlingTime(), velocities_);
-  Eigen::Map<Eigen::VectorXd>(state_.positions.data(), velocities_.size()) += velocities_;
-  expected_.place(state_, *inputs.tool, command.velocities, limits);
-  state_.X_WR = inputs.planes->X_WT;
-  for (size_t i = 0; i < state_.positions.size(); ++i) {
-    const double* const swept = sweptPosition(*inputs.planes, tree_->variables()[i]);
-    state_.positions[i] = swept ? *swept : joints.state.positions[i];
+  Eigen::Map<Eigen::VectorXd>(expected_state_.positions.data(), velocities_.size()) += velocities_;
+  expected_.place(expected_state_, *inputs.tool, command.velocities);
+  later_state_.X_WR = inputs.planes->X_WT;
+  later_state_.positions = joints.state.positions;
+  for (size_t i = 0; i < later_state_.positions.size(); ++i) {
+    if (const double* const swept = sweptPosition(*inputs.planes, tree_->variables()[i]))
+      later_state_.positions[i] = *swept;
   }
-  swept_.place(state_, *inputs.tool, command.velocities, limits);
+  swept_.place(later_state_, *inputs.tool, command.velocities);
   requireAgreement(inputs);
 }
 
@@ -129,20 +135,25 @@ void JointMotionGuard::requireAgreement(const MotionInputs& inputs) {
   }
 }
 
-void JointMotionGuard::limit(const MotionInputs& inputs, const BrakingLimits& limits, GuardedMotion& motion) {
-  rows_.clear();
-  collectRows(inputs, measured_);
-  collectRows(inputs, expected_);
+void JointMotionGuard::limit(const MotionInputs& inputs, const MeasuredJoints& joints, const JointCommand& command,
+                             const BrakingLimits& limits, GuardedMotion& motion) {
   const double fastest = std::max(measured_.fastest(), expected_.fastest());
-  const double by_planes = scaleByPlanes(limits, kJointRounding * fastest, motion.limiting);
   double allowed = allowedSpeed(uncovered(inputs), limits);
   const bool escapes = motion.decision.permission == Permission::kEscape;
   if (escapes) allowed = std::min(allowed, options_.escape_speed);
   if (motion.decision.cause == PermissionCause::kUnseen) allowed = std::min(allowed, options_.unseen_speed);
-  const double as_a_whole = fastest > allowed ? allowed / fastest : 1.0;
-  if (as_a_whole < by_planes) motion.limiting.reset();
-  motion.scale = std::min(by_planes, as_a_whole);
-  if (escapes) stopUnlessEveryGapOpens(limits, motion);
+  motion.scale = fastest > allowed ? allowed / fastest : 1.0;
+
+  const StopOnPath stop{limits.reaction_time, fastest / limits.deceleration};
+  for (const RobotState* const from : {&joints.state, &std::as_const(expected_state_)}) {
+    const Lasting lasts = lasting(inputs, *from, command, limits, stop);
+    const double share = lasts.row ? std::min(1.0, stop.share(lasts.time)) : 1.0;
+    if (share >= motion.scale) continue;
+    motion.scale = share;
+    const Row& row = rows_[*lasts.row];
+    motion.limiting = GuardedMotion::Limiting{row.plane, row.ball.normal_W, row.ball.gap, share * row.closing};
+  }
+  if (escapes) stopUnlessEveryGapOpens(inputs, command, limits, motion);
   motion.sent_speed = motion.scale * motion.commanded_speed;
 }
 
@@ -155,8 +166,7 @@ UncoveredSurfaces JointMotionGuard::uncovered(const MotionInputs& inputs) const 
   return uncovered;
 }
 
-// A ball that the command does not move has no row.
-void JointMotionGuard::collectRows(const MotionInputs& inputs, const MovingTool& state) {
+void JointMotionGuard::collectRows(const MotionInputs& inputs, const MovingTool& state, std::vector<Row>& rows) {
   for (size_t i = 0; i < inputs.planes->planes.size(); ++i) {
     const SeparatingPlane& plane = inputs.planes->planes[i];
     const MovingTool::Piece& piece = state.pieces()[plane.piece];
@@ -165,29 +175,63 @@ void JointMotionGuard::collectRows(const MotionInputs& inputs, const MovingTool&
     for (size_t j = 0; j < facing_.size(); ++j) {
       requireUsable(facing_[j]);
       const MovingTool::Ball& ball = state.balls()[piece.first_ball + j];
-      if (ball.speed > 0.0)
-        rows_.push_back({facing_[j], i, closingSpeed(facing_[j], piece.twist_W), ball.acceleration});
+      rows.push_back({facing_[j], i, ball.speed > 0.0, closingSpeed(facing_[j], piece.twist_W), ball.acceleration});
     }
   }
 }
 
-double JointMotionGuard::scaleByPlanes(const BrakingLimits& limits, double tolerance,
-                                       std::optional<GuardedMotion::Limiting>& limiting) const {
-  double scale = 1.0;
-  for (const auto& [ball, plane, closing, acceleration] : rows_) {
-    if (closing <= tolerance) continue;
-    const double allowed = closingLimit(ball, acceleration, limits);
-    if (closing <= allowed + tolerance || allowed >= scale * closing) continue;
-    scale = allowed / closing;
-    limiting = GuardedMotion::Limiting{plane, ball.normal_W, ball.gap, allowed};
+// By conservative advancement [Mirtich 1996]: from where each gap lasts for sure, the next step begins.
+JointMotionGuard::Lasting JointMotionGuard::lasting(const MotionInputs& inputs, const RobotState& from,
+                                                    const JointCommand& command, const BrakingLimits& limits,
+                                                    const StopOnPath& stop) {
+  const double whole_way = stop.way(1.0);
+  const double tolerance = kJointRounding * stop.braking_time * limits.deceleration;
+  Lasting lasts{0.0, {}};
+  for (int step = 0; step < kMostSteps; ++step) {
+    later_state_ = from;
+    Eigen::Map<Eigen::VectorXd>(later_state_.positions.data(), command.velocities.size()) +=
+        lasts.time * command.velocities;
+    later_.place(later_state_, *inputs.tool, command.velocities);
+    if (step == 0) later_.boundAccelerations(*inputs.tool, command.velocities, whole_way);
+    later_rows_.clear();
+    collectRows(inputs, later_, later_rows_);
+    if (step == 0) rows_ = later_rows_;
+    const Lasting more = lastingOn(lasts.time, tolerance, limits, stop);
+    lasts = {lasts.time + more.time, more.row};
+    if (lasts.time >= whole_way) return {whole_way, {}};
+    if (more.time < kLeastStep * whole_way && later_rows_[*more.row].closing > 0.0) break;
   }
-  return scale;
+  return lasts;
 }
 
-void JointMotionGuard::stopUnlessEveryGapOpens(const BrakingLimits& limits, GuardedMotion& motion) const {
+// A ball that comes no nearer than it is keeps its gap, whatever its surface does.
+JointMotionGuard::Lasting JointMotionGuard::lastingOn(double way, double tolerance, const BrakingLimits& limits,
+                                                      const StopOnPath& stop) const {
+  const double until_rest = stop.untilRest(stop.share(way));
+  Lasting least{std::numeric_limits<double>::infinity(), {}};
+  for (size_t i = 0; i < rows_.size(); ++i) {
+    if (!rows_[i].moves) continue;
+    const double surface = std::max(0.0, rows_[i].ball.surface_speed);
+    const double kept = std::min(rows_[i].ball.gap, limits.standoff + surface * until_rest);
+    const bool comes = kept < rows_[i].ball.gap;
+    const double closing = later_rows_[i].closing + (comes ? surface * stop.braking_time / until_rest : 0.0);
+    const double time = timeUntilClosed(std::max(0.0, later_rows_[i].ball.gap - kept),
+                                        std::abs(closing) > tolerance ? closing : 0.0, rows_[i].acceleration);
+    if (time < least.time) least = {time, i};
+  }
+  return least;
+}
+
+void JointMotionGuard::stopUnlessEveryGapOpens(const MotionInputs& inputs, const JointCommand& command,
+                                               const BrakingLimits& limits, GuardedMotion& motion) {
+  rows_.clear();
+  for (MovingTool* const state : {&measured_, &expected_}) {
+    state->boundAccelerations(*inputs.tool, command.velocities, limits.reaction_time);
+    collectRows(inputs, *state, rows_);
+  }
   const double scale = motion.scale;
   const auto closes = std::find_if(rows_.begin(), rows_.end(), [&](const Row& row) {
-    return !opens(row.ball, scale * row.closing, scale * scale * row.acceleration, limits);
+    return row.moves && !opens(row.ball, scale * row.closing, scale * scale * row.acceleration, limits);
   });
   if (closes == rows_.end()) return;
   motion.scale = 0.0;

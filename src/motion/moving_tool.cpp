@@ -34,8 +34,7 @@ bool isPlacedBy(const KinematicTree& tree, const PlaneSet& planes, const ToolBal
 
 MovingTool::MovingTool(std::shared_ptr<const KinematicTree> tree) : tree_(std::move(tree)) {}
 
-void MovingTool::place(const RobotState& state, const ToolBalls& tool, const Eigen::VectorXd& velocities,
-                       const BrakingLimits& limits) {
+void MovingTool::place(const RobotState& state, const ToolBalls& tool, const Eigen::VectorXd& velocities) {
   tree_->poses(state.positions, X_RL_);
   pieces_.clear();
   balls_.clear();
@@ -43,14 +42,20 @@ void MovingTool::place(const RobotState& state, const ToolBalls& tool, const Eig
   for (size_t i = 0; i < tool.pieces.size(); ++i) {
     const size_t link = linkOf(tool, i, *tree_).value();
     const Eigen::Isometry3d X_WL = state.X_WR * poseOf(link, X_RL_);
-    pieces_.push_back({X_WL, twistOf(link, state.X_WR.linear(), velocities), balls_.size()});
+    pieces_.push_back({link, X_WL, twistOf(link, state.X_WR.linear(), velocities), balls_.size()});
     for (const ToolBall& ball : tool.pieces[i]) {
       const Twist center_W = atPoint(pieces_.back().twist_W, X_WL.linear() * ball.center_T);
-      const double speed = center_W.v_W.norm() + center_W.w_W.norm() * ball.radius;
-      const double until_rest = limits.reaction_time + speed / limits.deceleration;
-      balls_.push_back({X_WL * ball.center_T, speed, accelerationOf(link, ball.center_T, velocities, until_rest)});
-      fastest_ = std::max(fastest_, speed);
+      balls_.push_back({X_WL * ball.center_T, center_W.v_W.norm() + center_W.w_W.norm() * ball.radius, 0.0});
+      fastest_ = std::max(fastest_, balls_.back().speed);
     }
+  }
+}
+
+void MovingTool::boundAccelerations(const ToolBalls& tool, const Eigen::VectorXd& velocities, double time) {
+  for (size_t i = 0; i < pieces_.size(); ++i) {
+    for (size_t j = 0; j < tool.pieces[i].size(); ++j)
+      balls_[pieces_[i].first_ball + j].acceleration =
+          accelerationOf(pieces_[i].link, tool.pieces[i][j].center_T, velocities, time);
   }
 }
 
@@ -60,9 +65,9 @@ Twist MovingTool::twistOf(size_t link, const Eigen::Matrix3d& R_WR, const Eigen:
   return {R_WR * velocity_R.head<3>(), R_WR * velocity_R.tail<3>()};
 }
 
-// Until the ball is at rest, it comes farther from the axis of a joint by its way seen from there, at most.
+// Within the time, the ball comes farther from the axis of a joint by its way seen from there, at most.
 double MovingTool::accelerationOf(size_t link, const Eigen::Vector3d& p_L, const Eigen::VectorXd& velocities,
-                                  double until_rest) const {
+                                  double time) const {
   const Eigen::Vector3d p_R = poseOf(link, X_RL_) * p_L;
   Travel travel;
   for (size_t i = link; i != TreeLink::kRoot; i = tree_->links()[i].parent) {
@@ -72,7 +77,7 @@ double MovingTool::accelerationOf(size_t link, const Eigen::Vector3d& p_L, const
     if (joint.type == JointType::kPrismatic) {
       travel.addSlide(speed);
     } else {
-      travel.addTurn(speed, distanceFromAxis(p_R, X_RL_[i], joint.axis_J) + until_rest * travel.path);
+      travel.addTurn(speed, distanceFromAxis(p_R, X_RL_[i], joint.axis_J) + time * travel.path);
     }
   }
   return travel.curvature;

@@ -88,7 +88,7 @@ TEST(ContactForceTest, AToolThatJointsMoveFeelsAsOneThatIsFixedWhereTheyPutIt) {
   tool.pieces[0][0].center_T = Vector3d(0.2, 0.0, 0.0);
   tool.frames = {"fore"};
   const Isometry3d X_WT(Translation3d(0.0, 0.0, 0.1));
-  moving.place({X_WT, {0.53}}, tool, Eigen::VectorXd::Zero(1), {});
+  moving.place({X_WT, {0.53}}, tool, Eigen::VectorXd::Zero(1));
   ContactForceFinder finder;
   const ToolForce bent = finder.find(planeSet({kFloor}), tool, {X_WT, &moving}, {}, kLaw);
 

@@ -103,7 +103,8 @@ class ArmScene {
   Proximity proximity_;
 };
 
-/// An arm that follows commands at 100 Hz after 20 ms with a lag of 30 ms, with or without a guard. Positions reach the guard after
+/// An arm that follows commands at 100 Hz after 20 ms with a lag of 30 ms, and brakes no harder than the guard counts on, with or
+/// without a guard. Positions reach the guard after
 /// 10 ms, planes after 20 ms. A copy continues from the same state.
 class ArmLoop {
  public:
@@ -112,18 +113,22 @@ class ArmLoop {
   static constexpr double kGain = 1.0;  ///< of the speeds of all joints, until the gap is seen again [rad/s]
 
   ArmLoop(ArmScene& scene, const std::vector<double>& positions, bool guarded)
-      : scene_(&scene), velocity_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(positions.size()))) {
+      : scene_(&scene),
+        velocity_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(positions.size()))),
+        followed_(velocity_),
+        robot_(scene.arm().tree) {
     state_.positions = positions;
     for (int i = 0; i < 20; ++i) sent_.push_back(velocity_);
     if (!guarded) return;
     guard_ = std::make_shared<JointMotionGuard>(options(), scene.arm().tree);
     for (int i = 0; i < 3; ++i) measure();
   }
-  ArmLoop(const ArmLoop& other) { *this = other; }
+  ArmLoop(const ArmLoop& other) : robot_(other.scene_->arm().tree) { *this = other; }
   ArmLoop& operator=(const ArmLoop& other) {
     scene_ = other.scene_;
     state_ = other.state_;
     velocity_ = other.velocity_;
+    followed_ = other.followed_;
     sent_ = other.sent_;
     measured_ = other.measured_;
     ms_ = other.ms_;
@@ -151,8 +156,9 @@ class ArmLoop {
     if (guard_) cycle.scale = guarded(command);
     for (int step = 0; step < kPeriodMs; ++step) {
       sent_.push_back(cycle.scale * command);
-      velocity_ += (sent_.front() - velocity_) / 30.0;
+      followed_ += (sent_.front() - followed_) / 30.0;
       sent_.pop_front();
+      velocity_ = changed(robot_, state_, *scene_->balls(), options().deceleration, velocity_, followed_);
       state_ = after(state_, velocity_, 1e-3);
       if (gap_ > kArm * (velocity_.cwiseAbs().sum() + kGain) * 1e-3 * ++unseen_) continue;
       gap_ = scene_->gapAt(state_.positions);
@@ -188,6 +194,8 @@ class ArmLoop {
   ArmScene* scene_ = nullptr;
   RobotState state_;
   Eigen::VectorXd velocity_;
+  Eigen::VectorXd followed_;  // without the limit of braking
+  MovingTool robot_;
   std::deque<Eigen::VectorXd> sent_;                                             // not yet begun
   std::deque<std::pair<RobotState, std::shared_ptr<const PlaneSet>>> measured_;  // of the last three commands
   int ms_ = 0;

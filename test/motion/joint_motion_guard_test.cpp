@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -57,14 +58,30 @@ TEST(JointMotionGuardTest, ScalesTheWholeCommandBeforeAPlaneAndNamesIt) {
   EXPECT_NEAR(motion.limiting->closing_limit, allowed, 1e-12);
 }
 
-TEST(JointMotionGuardTest, AnArcIsPaidUntilTheBallIsAtRest) {
+TEST(JointMotionGuardTest, AnArcIsPaidUntilTheRobotIsAtRest) {
   ArmCase arm = slideAndWheel(1.0);
   arm.command.velocities = Eigen::Vector2d(0.0, 1.0);
   editable(arm).planes = {{1, Vector3d::UnitX(), Vector3d(-0.01, 0.0, 0.0), 0.01, 0.0}};
-  const GuardedMotion motion = guardOnce(arm);
-  const double c = 0.5 * motion.scale;
-  const double until_rest = 0.01 + c;
-  EXPECT_NEAR(c * c / 2.0 + c * 0.01 + 0.5 * until_rest * until_rest / 2.0, 0.008, 1e-9);
+  const double share = guardOnce(arm).scale;
+  const double turn = share * (0.01 + share * 0.5 / 2.0);  // [rad] until at rest, from 0.5 m/s at 1 m/s^2
+  EXPECT_NEAR(0.5 * std::sin(turn), 0.008, 1e-6);
+}
+
+// The path does not bend, so all of the motion brakes for the part that closes.
+TEST(JointMotionGuardTest, AGrazingMotionBrakesAlongItsPath) {
+  ArmCase arm = slideAndWheel(0.051);
+  arm.command.velocities = Eigen::Vector2d(-0.2, 2.0);  // the wheel's ball, which closes on nothing, goes at 1 m/s
+  const double share = guardOnce(arm).scale;
+  EXPECT_NEAR(0.2 * share * (0.01 + share * 1.0 / 2.0), 0.048, 1e-9);
+}
+
+TEST(JointMotionGuardTest, ASurfaceComesUntilTheRobotIsAtRest) {
+  ArmCase arm = slideAndWheel(0.051);
+  editable(arm).planes[0].surface_speed = 0.1;
+  const double share = guardOnce(arm).scale;
+  EXPECT_NEAR(0.5 * share * (0.01 + share * 0.5 / 2.0) + 0.1 * (0.01 + share * 0.5), 0.048, 1e-5);
+  editable(arm).planes[0].surface_speed = -0.1;
+  EXPECT_NEAR(0.5 * guardOnce(arm).scale, stoppingSpeed(0.048, {1.0, 0.01, 0.002, 0.0}), 1e-9);
 }
 
 TEST(JointMotionGuardTest, TheRobotsLagAndTheAgeOfPlanesCountAsReactionTime) {

@@ -8,6 +8,7 @@
 #include "kinematics/random_robot.h"
 #include "motion/times.h"
 #include "sweep_guard/motion/joint_motion_guard.h"
+#include "sweep_guard/motion/moving_tool.h"
 
 namespace sweep_guard_core {
 
@@ -30,6 +31,15 @@ inline RobotState after(RobotState state, const Eigen::VectorXd& velocities, dou
   for (size_t i = 0; i < state.positions.size(); ++i)
     state.positions[i] += time * velocities[static_cast<Eigen::Index>(i)];
   return state;
+}
+
+/// Returns the velocities 1 ms later of a robot that takes on others. Where it slows down, no point of the tool brakes harder than
+/// at a deceleration [m/s^2].
+inline Eigen::VectorXd changed(MovingTool& robot, const RobotState& state, const ToolBalls& tool, double deceleration,
+                               const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
+  if (to.norm() >= from.norm()) return to;
+  robot.place(state, tool, to - from);
+  return from + std::min(1.0, 1e-3 * deceleration / std::max(1e-12, robot.fastest())) * (to - from);
 }
 
 /// Returns where the center of a ball is.

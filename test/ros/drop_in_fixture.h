@@ -23,16 +23,18 @@
 
 namespace sweep_guard_ros {
 
-/// Publishes the newest of its messages, by default at 100 Hz.
+/// Publishes the newest of its messages, by default at 100 Hz, stamped with the time of each.
 template <typename Msg>
 class Stream {
  public:
   explicit Stream(const std::string& topic, std::chrono::milliseconds period = std::chrono::milliseconds(10))
       : publisher_(node_.advertise<Msg>(topic, 10)), repeater_(period, [this] { publish(); }) {}
 
-  void send(const Msg& message) {
+  /// @param stamped  false: with the stamp that it has
+  void send(const Msg& message, bool stamped = true) {
     const std::lock_guard lock(mutex_);
     message_ = message;
+    stamped_ = stamped;
   }
 
  private:
@@ -43,13 +45,14 @@ class Stream {
   void publish() {
     const std::lock_guard lock(mutex_);
     if (!message_) return;
-    stamp(*message_);
+    if (stamped_) stamp(*message_);
     publisher_.publish(*message_);
   }
 
   ros::NodeHandle node_;
   std::mutex mutex_;
   std::optional<Msg> message_;
+  bool stamped_ = true;
   ros::Publisher publisher_;
   Repeater repeater_;  // ends before what it publishes
 };

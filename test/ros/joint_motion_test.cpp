@@ -172,6 +172,48 @@ TEST_F(JointMotionTest, WhatIsNoVelocityOfAKnownJointIsRefusedInWords) {
   driven.awaitRefusal(command, "displacements are not limited");
 }
 
+// The zero of a refusal is for the joints that move.
+TEST_F(JointMotionTest, ARefusedCommandOfOtherJointsStopsThoseOfTheCommandBefore) {
+  Driven<JointJog> driven("jog");
+  JointJog command;
+  for (const double refused : {std::numeric_limits<double>::infinity(), std::nan("")}) {
+    driven.awaitWhole(jog(0.1, 0.1));
+    command.joint_names = {"elbow"};
+    command.velocities = {refused};
+    driven.awaitRefusal(command, "commanded joint velocities refused");
+  }
+  driven.awaitWhole(jog(0.1, 0.1));
+  command.joint_names.clear();
+  command.velocities.clear();
+  driven.awaitRefusal(command, "it names no joint");
+}
+
+TEST_F(JointMotionTest, AJointThatIsNamedNoMoreIsSentZeroFirst) {
+  Driven<JointJog> driven("jog");
+  driven.awaitWhole(jog(0.1, 0.1));
+  JointJog command;
+  command.joint_names = {"elbow"};
+  command.velocities = {0.2};
+  driven.commands.send(command);
+  driven.sent.await("zero of both", [](const JointJog& now) {
+    return now.velocities == std::vector<double>{0.0, 0.0};
+  });
+  driven.awaitWhole(command);
+}
+
+TEST_F(JointMotionTest, ATrajectoryThatBeginsLaterIsRefusedAndTheZeroOfOneThatBeganAtOnceDoesSo) {
+  Driven<JointTrajectory> driven("trajectory");
+  driven.commands.send(trajectory(0.1, 0.1), /*stamped=*/false);
+  driven.sent.await("the whole command", [](const auto& now) { return velocitiesOf(now)[0] == 0.1; });
+  JointTrajectory command = trajectory(0.1, 0.1);
+  command.header.stamp = ros::Time::now() + ros::Duration(1e4);
+  driven.commands.send(command, /*stamped=*/false);
+  driven.statuses.await("refused", [](const auto& now) { return has(now.text, "stamp lies in the future"); });
+  driven.sent.await("zero that begins at once", [](const JointTrajectory& now) {
+    return velocitiesOf(now) == std::vector<double>{0.0, 0.0} && now.header.stamp == ros::Time();
+  });
+}
+
 TEST_F(JointMotionTest, AJointThatTheGuardDoesNotKnowIsRefused) {
   Driven<JointJog> driven("jog");
   driven.awaitWhole(jog(0.1, 0.1));

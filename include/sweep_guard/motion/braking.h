@@ -41,6 +41,24 @@ double stoppingSpeed(double distance, const BrakingLimits& limits);
 /// @param acceleration  bound on that of the ball while the motion goes on as it is [m/s^2], >= 0
 double closingLimit(const FacingBall& ball, double acceleration, const BrakingLimits& limits);
 
+/// How a robot comes to rest that carries out a share of a command and is then stopped. No point leaves its path: for the reaction
+/// time all go on, and then brake at one rate, the fastest one at `deceleration`. Ways along the path are times for which the
+/// whole command would take them [s].
+struct StopOnPath {
+  double reaction_time;  ///< [s], > 0
+  double braking_time;   ///< from the whole command: speed of the fastest point / deceleration [s], >= 0
+
+  double way(double share) const { return share * (reaction_time + 0.5 * share * braking_time); }
+  double untilRest(double share) const { return reaction_time + share * braking_time; }  ///< [s]
+  double share(double way) const;  ///< that is at rest after this way, >= 0; may be above 1
+};
+
+/// Returns how long a gap lasts [s].
+/// @param gap           [m], >= 0
+/// @param closing       speed [m/s]; negative: the gap grows at first
+/// @param acceleration  bound on how fast the closing speed grows [m/s^2], >= 0
+double timeUntilClosed(double gap, double closing, double acceleration);
+
 /// Returns a bound on the acceleration of any tool point to the axis of a turn [m/s^2].
 double arcAcceleration(const Twist& twist_W, double tool_radius);
 

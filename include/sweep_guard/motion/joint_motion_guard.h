@@ -58,31 +58,43 @@ class JointMotionGuard {
   struct Row {
     FacingBall ball;
     size_t plane;
+    bool moves;           // by the command
     double closing;       // by the command [m/s]
-    double acceleration;  // [m/s^2]
+    double acceleration;  // bound on that of the ball until the robot is at rest [m/s^2]
+  };
+  // For how long a command may go on as a whole, and the row that says so.
+  struct Lasting {
+    double time;  // [s]
+    std::optional<size_t> row;
   };
 
   void placeExpectedAndSwept(const MotionInputs& inputs, const MeasuredJoints& joints, const JointCommand& command,
-                             const BrakingLimits& limits, const Instant& now);
-  void limit(const MotionInputs& inputs, const BrakingLimits& limits, GuardedMotion& motion);
+                             const Instant& now);
+  void limit(const MotionInputs& inputs, const MeasuredJoints& joints, const JointCommand& command,
+             const BrakingLimits& limits, GuardedMotion& motion);
   void requireGuarded(const PlaneSet& planes, const JointCommand& command) const;
   void requireAgreement(const MotionInputs& inputs);
   UncoveredSurfaces uncovered(const MotionInputs& inputs) const;
-  void collectRows(const MotionInputs& inputs, const MovingTool& state);
-  double scaleByPlanes(const BrakingLimits& limits, double tolerance,
-                       std::optional<GuardedMotion::Limiting>& limiting) const;
-  void stopUnlessEveryGapOpens(const BrakingLimits& limits, GuardedMotion& motion) const;
+  void collectRows(const MotionInputs& inputs, const MovingTool& state, std::vector<Row>& rows);
+  Lasting lasting(const MotionInputs& inputs, const RobotState& from, const JointCommand& command,
+                  const BrakingLimits& limits, const StopOnPath& stop);
+  Lasting lastingOn(double way, double tolerance, const BrakingLimits& limits, const StopOnPath& stop) const;
+  void stopUnlessEveryGapOpens(const MotionInputs& inputs, const JointCommand& command, const BrakingLimits& limits,
+                               GuardedMotion& motion);
 
   const MotionGuardOptions options_;
   const std::shared_ptr<const KinematicTree> tree_;
   MotionInFlight in_flight_;
-  RobotState state_;  // expected, then swept
+  RobotState expected_state_;
+  RobotState later_state_;  // on the way of the command, or swept
   Eigen::VectorXd velocities_;
   MovingTool swept_;
   MovingTool measured_;
   MovingTool expected_;
+  MovingTool later_;
   std::vector<FacingBall> facing_;
-  std::vector<Row> rows_;
+  std::vector<Row> rows_;  // where the way begins
+  std::vector<Row> later_rows_;
 };
 
 }  // namespace sweep_guard_core

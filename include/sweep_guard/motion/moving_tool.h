@@ -28,6 +28,7 @@ class MovingTool {
  public:
   /// A convex piece of the tool, in the frame of its link L.
   struct Piece {
+    size_t link;  ///< of the tree
     Eigen::Isometry3d X_WL;
     Twist twist_W;      ///< of the origin of L
     size_t first_ball;  ///< index into balls(), in the order of ToolBalls
@@ -35,7 +36,7 @@ class MovingTool {
   struct Ball {
     Eigen::Vector3d center_W;  ///< [m]
     double speed;              ///< of its fastest point [m/s]
-    double acceleration;       ///< bound on that of its center until it is at rest, at constant joint speeds [m/s^2]
+    double acceleration;       ///< bound on that of its center by boundAccelerations() [m/s^2]; 0 before
   };
 
   /// @param tree  its root is the tool frame
@@ -44,9 +45,12 @@ class MovingTool {
   /// Places the tool, and lets the joints move there.
   /// @param tool        each piece has a link of the tree (linkOf())
   /// @param velocities  of each variable [rad/s or m/s]
-  /// @param limits      how soon the robot is at rest
-  void place(const RobotState& state, const ToolBalls& tool, const Eigen::VectorXd& velocities,
-             const BrakingLimits& limits);
+  void place(const RobotState& state, const ToolBalls& tool, const Eigen::VectorXd& velocities);
+
+  /// Bounds the acceleration of each ball while the joints go on at these velocities for a time.
+  /// @param tool, velocities  as they were placed
+  /// @param time              [s], >= 0
+  void boundAccelerations(const ToolBalls& tool, const Eigen::VectorXd& velocities, double time);
 
   const std::vector<Piece>& pieces() const { return pieces_; }
   const std::vector<Ball>& balls() const { return balls_; }
@@ -57,8 +61,7 @@ class MovingTool {
 
  private:
   Twist twistOf(size_t link, const Eigen::Matrix3d& R_WR, const Eigen::VectorXd& velocities);
-  double accelerationOf(size_t link, const Eigen::Vector3d& p_L, const Eigen::VectorXd& velocities,
-                        double until_rest) const;
+  double accelerationOf(size_t link, const Eigen::Vector3d& p_L, const Eigen::VectorXd& velocities, double time) const;
 
   const std::shared_ptr<const KinematicTree> tree_;
   std::vector<Eigen::Isometry3d> X_RL_;

@@ -98,7 +98,7 @@ std::optional<sweep_guard_core::PlacedByJoints> HapticsNode::placedByJoints(
   if (!isPlacedBy(*parameters_.joints.tree, *known.planes, *known.tool) || !input.newest(*known.planes, measured))
     return {};
   measured.state.X_WR = known.pose->X_WT;
-  tool.place(measured.state, *known.tool, at_rest, {});
+  tool.place(measured.state, *known.tool, at_rest);
   return sweep_guard_core::PlacedByJoints{&tool, measured.timestamps};
 }
 

@@ -163,6 +163,8 @@ void CommandCycle::explain(PermissionCause cause, const Instant& at, sweep_guard
   const bool no_pose = cause == PermissionCause::kNoPose || cause == PermissionCause::kPoseSilent;
   if (no_pose && sources_.tool_pose != nullptr) why = sources_.tool_pose->standstill();
   if (cause == PermissionCause::kNoJoints) why = sources_.joints->absence();
+  if (cause == PermissionCause::kJointsSilent || cause == PermissionCause::kOldJoints)
+    why = std::string(textOf(cause)) + ": " + sources_.joints->oldest();
   if (!why.empty()) status.text = "stopped: " + why;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "ros/input/future_stamp.h"
@@ -50,15 +51,21 @@ void JointInput::onMessage(const std::string& publisher, const sensor_msgs::Join
 }
 
 void JointInput::check(const std::string& publisher, const sweep_guard_core::JointTimeline::Position& named,
-                       const Timestamps& timestamps) const {
+                       const Timestamps& timestamps) {
   const std::string name = "joint '" + printable(source_.names->inMessages(named.variable)) + "'";
   if (!(std::abs(named.value) <= kMaxPosition)) throw InvalidInput(name + ": its position must be finite, within 1e10");
   const Joint& before = joints_[named.variable];
   if (before.publisher.empty() || timestamps.received - before.timestamps.received > silence_) return;
   if (before.publisher != publisher) {
-    throw InvalidInput(name + " is published by " + before.publisher + " and " + publisher + ": let one of them");
+    dispute_ = name + " is published by " + before.publisher + " and " + publisher + ": let one of them";
+    disputed_at_ = timestamps.received;
+    throw InvalidInput(dispute_);
   }
   if (timestamps.stamp < before.timestamps.stamp) throw InvalidInput(name + ": its stamp is older than the one before");
+}
+
+bool JointInput::disputed() const {
+  return !dispute_.empty() && std::chrono::steady_clock::now() - disputed_at_ <= silence_;
 }
 
 bool JointInput::newest(const sweep_guard_core::PlaneSet& planes, sweep_guard_core::MeasuredJoints& joints) const {
@@ -80,7 +87,7 @@ bool JointInput::newest(const sweep_guard_core::PlaneSet& planes, sweep_guard_co
     joints.timestamps = {std::min(joints.timestamps.stamp, measured.stamp),
                          std::min(joints.timestamps.received, measured.received)};
   }
-  return heard;
+  return heard && !disputed();
 }
 
 void JointInput::report(DiagnosticsLine& line) const {
@@ -88,12 +95,32 @@ void JointInput::report(DiagnosticsLine& line) const {
   line.summary(absent.empty() ? diagnostic_msgs::DiagnosticStatus::OK : diagnostic_msgs::DiagnosticStatus::ERROR,
                absent.empty() ? "received" : absent);
   if (absent.empty() && silent(record_.summary())) line.summary(diagnostic_msgs::DiagnosticStatus::ERROR, "silent");
+  line.add("oldest", oldest());
   line.add("topic", subscriber_.getTopic());
   line.add("publishers", subscriber_.getNumPublishers());
   addRecord("joints", record_.summary(), line);
 }
 
+std::string JointInput::oldest() const {
+  const sweep_guard_core::Lock lock(mutex_);
+  const Joint* oldest = nullptr;
+  for (const Joint& joint : joints_) {
+    if (joint.publisher.empty() || (oldest && joint.timestamps.received >= oldest->timestamps.received)) continue;
+    oldest = &joint;
+  }
+  if (!oldest) return "";
+  char text[64];
+  std::snprintf(text, sizeof text, "' came %.1f s ago",
+                toSeconds(std::chrono::steady_clock::now() - oldest->timestamps.received));
+  return "the newest position of joint '" +
+         printable(source_.names->inMessages(static_cast<size_t>(oldest - joints_.data()))) + text;
+}
+
 std::string JointInput::absence() const {
+  {
+    const sweep_guard_core::Lock lock(mutex_);
+    if (disputed()) return dispute_;
+  }
   const sweep_guard_core::InputRecord::Summary record = record_.summary();
   if (record.newest) return "";
   const std::string topic = subscriber_.getTopic();

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "ros/input/future_stamp.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/motion/joint_motion_guard.h"
@@ -70,10 +71,14 @@ class JointPort : public CommandPort {
   }
 
   GuardedMotion limit(const MotionInputs& known, const Timestamps& timestamps, const Cycle& cycle) override {
+    if (timestamps.stamp > cycle.now.stamp + kFutureTolerance) throw InvalidInput(kFutureStampText);
     read();
     command_.timestamps = timestamps;
     command_.period = cycle.period;
-    return guard_.guard(known, measured(known), command_, cycle.now);
+    const GuardedMotion motion = guard_.guard(known, measured(known), command_, cycle.now);
+    if (accepted_ && leavesJointsOut(*accepted_)) publishScaled(*accepted_, 0.0, /*again=*/true);
+    accepted_ = newestPtr<Msg>();
+    return motion;
   }
 
   void send(const GuardedMotion& motion, bool again) override {
@@ -81,7 +86,7 @@ class JointPort : public CommandPort {
     publishScaled(newest<Msg>(), motion.scale, again);
   }
 
-  // A command that was refused may be anything: that of before tells what shall stand still.
+  // What was refused may be anything: the command before tells what shall stand still.
   void sendZero(const MotionInputs& /*known*/, const Cycle& cycle) override {
     guard_.stop(cycle.now.steady);
     if (accepted_) publishScaled(*accepted_, 0.0, /*again=*/true);
@@ -93,6 +98,7 @@ class JointPort : public CommandPort {
     requireVelocities(msg);
     const Names& names = namesOf(msg, parameters_.joints);
     const std::vector<double>& velocities = velocitiesOf(msg);
+    if (names.empty()) throw InvalidInput("it names no joint");
     if (names.size() != velocities.size()) {
       throw InvalidInput("there are " + std::to_string(velocities.size()) + " velocities for " +
                          std::to_string(names.size()) + " joints");
@@ -103,7 +109,14 @@ class JointPort : public CommandPort {
         throw InvalidInput("joint '" + printable(names[i]) + "' is named twice");
       command_.velocities[variableOf(names[i])] = velocities[i];
     }
-    accepted_ = newestPtr<Msg>();
+  }
+
+  // A controller goes on with joints that are named no more.
+  bool leavesJointsOut(const Msg& before) const {
+    const Names& now = namesOf(newest<Msg>(), parameters_.joints);
+    const Names& then = namesOf(before, parameters_.joints);
+    return std::any_of(then.begin(), then.end(),
+                       [&](const std::string& joint) { return std::find(now.begin(), now.end(), joint) == now.end(); });
   }
 
   Eigen::Index variableOf(const std::string& name) const {
@@ -123,7 +136,7 @@ class JointPort : public CommandPort {
     if (scale != 1.0) {
       for (double& velocity : velocitiesOf(*msg)) velocity = scale == 0.0 ? 0.0 : scale * velocity;
     }
-    if (again) stampNow(*msg);
+    if (again && headerOf(command).stamp != ros::Time()) stampNow(*msg);  // 0 begins at once
     publish(msg);
   }
 
@@ -132,7 +145,7 @@ class JointPort : public CommandPort {
   sweep_guard_core::JointMotionGuard guard_;
   sweep_guard_core::MeasuredJoints measured_;  // in the newest call of measured()
   sweep_guard_core::JointCommand command_;     // newest one
-  boost::shared_ptr<const Msg> accepted_;      // newest one that is velocities of joints of the robot; null: none was
+  boost::shared_ptr<const Msg> accepted_;      // newest one that was limited; null: none was
 };
 
 }  // namespace

@@ -40,9 +40,9 @@ std::int8_t codeOf(const GuardedMotion& motion) {
 std::string nearestText(const MotionStatus& status) {
   if (status.mesh_id.empty()) return "a surface that no plane stands for";
   char gap[32];
-  std::snprintf(gap, sizeof gap, "%.1f mm", 1e3 * status.gap);
+  std::snprintf(gap, sizeof gap, "%.1f mm %s", 1e3 * std::abs(status.gap), status.gap < 0.0 ? "inside" : "in front");
   const std::string link = status.tool_link.empty() ? "" : " of link '" + status.tool_link + "'";
-  return "'" + status.mesh_id + "', triangle " + std::to_string(status.triangle) + ", " + gap + " in front" + link +
+  return "'" + status.mesh_id + "', triangle " + std::to_string(status.triangle) + ", " + gap + link +
          "; back along the arrow";
 }
 
