@@ -53,7 +53,6 @@ JointMotionGuard::JointMotionGuard(const MotionGuardOptions& options, std::share
   requireUsable(options_);
   facing_.reserve(kRows);
   rows_.reserve(kRows);
-  later_rows_.reserve(kRows);
 }
 
 GuardedMotion JointMotionGuard::guard(const MotionInputs& inputs, const MeasuredJoints& joints,
@@ -145,14 +144,15 @@ void JointMotionGuard::limit(const MotionInputs& inputs, const MeasuredJoints& j
   motion.scale = fastest > allowed ? allowed / fastest : 1.0;
 
   const StopOnPath stop{limits.reaction_time, fastest / limits.deceleration};
-  for (const RobotState* const from : {&joints.state, &std::as_const(expected_state_)}) {
-    const Lasting lasts = lasting(inputs, *from, command, limits, stop);
-    const double share = lasts.row ? std::min(1.0, stop.share(lasts.time)) : 1.0;
-    if (share >= motion.scale) continue;
+  const auto limit_from = [&](const RobotState& from, MovingTool& tool) {
+    const auto [time, row] = lasting(inputs, from, tool, command, limits, stop);
+    const double share = row ? stop.share(time) : 1.0;
+    if (share >= motion.scale) return;
     motion.scale = share;
-    const Row& row = rows_[*lasts.row];
-    motion.limiting = GuardedMotion::Limiting{row.plane, row.ball.normal_W, row.ball.gap, share * row.closing};
-  }
+    motion.limiting = GuardedMotion::Limiting{row->plane, row->ball.normal_W, row->ball.gap, share * row->closing};
+  };
+  limit_from(joints.state, measured_);
+  limit_from(expected_state_, expected_);
   if (escapes) stopUnlessEveryGapOpens(inputs, command, limits, motion);
   motion.sent_speed = motion.scale * motion.commanded_speed;
 }
@@ -166,7 +166,7 @@ UncoveredSurfaces JointMotionGuard::uncovered(const MotionInputs& inputs) const 
   return uncovered;
 }
 
-void JointMotionGuard::collectRows(const MotionInputs& inputs, const MovingTool& state, std::vector<Row>& rows) {
+void JointMotionGuard::collectRows(const MotionInputs& inputs, const MovingTool& state) {
   for (size_t i = 0; i < inputs.planes->planes.size(); ++i) {
     const SeparatingPlane& plane = inputs.planes->planes[i];
     const MovingTool::Piece& piece = state.pieces()[plane.piece];
@@ -175,51 +175,67 @@ void JointMotionGuard::collectRows(const MotionInputs& inputs, const MovingTool&
     for (size_t j = 0; j < facing_.size(); ++j) {
       requireUsable(facing_[j]);
       const MovingTool::Ball& ball = state.balls()[piece.first_ball + j];
-      rows.push_back({facing_[j], i, ball.speed > 0.0, closingSpeed(facing_[j], piece.twist_W), ball.acceleration});
+      if (!(ball.speed > 0.0)) continue;
+      const double closing = closingSpeed(facing_[j], piece.twist_W);
+      rows_.push_back({facing_[j], i, piece.first_ball + j, closing, ball.acceleration, facing_[j].gap, closing});
     }
   }
 }
 
-// By conservative advancement [Mirtich 1996]: from where each gap lasts for sure, the next step begins.
+void JointMotionGuard::moveRowsOn(const MotionInputs& inputs, const RobotState& from, double way,
+                                  const JointCommand& command) {
+  later_state_ = from;
+  Eigen::Map<Eigen::VectorXd>(later_state_.positions.data(), command.velocities.size()) += way * command.velocities;
+  later_.place(later_state_, *inputs.tool, command.velocities);
+  for (Row& row : rows_) {
+    const SeparatingPlane& plane = inputs.planes->planes[row.plane];
+    const MovingTool::Piece& piece = later_.pieces()[plane.piece];
+    const Eigen::Vector3d& center_W = later_.balls()[row.index].center_W;
+    const double radius = inputs.tool->pieces[plane.piece][row.index - piece.first_ball].radius;
+    row.later_gap = plane.normal_W.dot(center_W - plane.point_W) - radius;
+    row.later_closing = -plane.normal_W.dot(atPoint(piece.twist_W, center_W - piece.X_WL.translation()).v_W);
+  }
+}
+
+// By conservative advancement [Mirtich 1996]: from where each gap lasts for sure, the next step begins. What lasts to the end is
+// seen no more.
 JointMotionGuard::Lasting JointMotionGuard::lasting(const MotionInputs& inputs, const RobotState& from,
-                                                    const JointCommand& command, const BrakingLimits& limits,
-                                                    const StopOnPath& stop) {
+                                                    MovingTool& tool, const JointCommand& command,
+                                                    const BrakingLimits& limits, const StopOnPath& stop) {
   const double whole_way = stop.way(1.0);
-  const double tolerance = kJointRounding * stop.braking_time * limits.deceleration;
+  tool.boundAccelerations(*inputs.tool, command.velocities, whole_way);
+  rows_.clear();
+  collectRows(inputs, tool);
   Lasting lasts{0.0, {}};
   for (int step = 0; step < kMostSteps; ++step) {
-    later_state_ = from;
-    Eigen::Map<Eigen::VectorXd>(later_state_.positions.data(), command.velocities.size()) +=
-        lasts.time * command.velocities;
-    later_.place(later_state_, *inputs.tool, command.velocities);
-    if (step == 0) later_.boundAccelerations(*inputs.tool, command.velocities, whole_way);
-    later_rows_.clear();
-    collectRows(inputs, later_, later_rows_);
-    if (step == 0) rows_ = later_rows_;
-    const Lasting more = lastingOn(lasts.time, tolerance, limits, stop);
-    lasts = {lasts.time + more.time, more.row};
-    if (lasts.time >= whole_way) return {whole_way, {}};
-    if (more.time < kLeastStep * whole_way && later_rows_[*more.row].closing > 0.0) break;
+    if (step > 0) moveRowsOn(inputs, from, lasts.time, command);
+    double least = whole_way - lasts.time;
+    const auto lasts_to_the_end = [&](const Row& row) {
+      const double time = timeUntilClosed(row, lasts.time, limits, stop);
+      if (time >= whole_way - lasts.time) return true;
+      if (time < least) lasts.row = row;
+      least = std::min(least, time);
+      return false;
+    };
+    rows_.erase(std::remove_if(rows_.begin(), rows_.end(), lasts_to_the_end), rows_.end());
+    if (rows_.empty()) return {whole_way, {}};
+    lasts.time += least;
+    if (least < kLeastStep * whole_way && lasts.row->later_closing > 0.0) break;
   }
   return lasts;
 }
 
 // A ball that comes no nearer than it is keeps its gap, whatever its surface does.
-JointMotionGuard::Lasting JointMotionGuard::lastingOn(double way, double tolerance, const BrakingLimits& limits,
-                                                      const StopOnPath& stop) const {
+double JointMotionGuard::timeUntilClosed(const Row& row, double way, const BrakingLimits& limits,
+                                         const StopOnPath& stop) const {
   const double until_rest = stop.untilRest(stop.share(way));
-  Lasting least{std::numeric_limits<double>::infinity(), {}};
-  for (size_t i = 0; i < rows_.size(); ++i) {
-    if (!rows_[i].moves) continue;
-    const double surface = std::max(0.0, rows_[i].ball.surface_speed);
-    const double kept = std::min(rows_[i].ball.gap, limits.standoff + surface * until_rest);
-    const bool comes = kept < rows_[i].ball.gap;
-    const double closing = later_rows_[i].closing + (comes ? surface * stop.braking_time / until_rest : 0.0);
-    const double time = timeUntilClosed(std::max(0.0, later_rows_[i].ball.gap - kept),
-                                        std::abs(closing) > tolerance ? closing : 0.0, rows_[i].acceleration);
-    if (time < least.time) least = {time, i};
-  }
-  return least;
+  const double surface = std::max(0.0, row.ball.surface_speed);
+  const double kept = std::min(row.ball.gap, limits.standoff + surface * until_rest);
+  const double coming = kept < row.ball.gap ? surface * stop.braking_time / until_rest : 0.0;
+  const double closing = row.later_closing + coming;
+  const double tolerance = kJointRounding * stop.braking_time * limits.deceleration;
+  return sweep_guard_core::timeUntilClosed(std::max(0.0, row.later_gap - kept),
+                                           std::abs(closing) > tolerance ? closing : 0.0, row.acceleration);
 }
 
 void JointMotionGuard::stopUnlessEveryGapOpens(const MotionInputs& inputs, const JointCommand& command,
@@ -227,11 +243,11 @@ void JointMotionGuard::stopUnlessEveryGapOpens(const MotionInputs& inputs, const
   rows_.clear();
   for (MovingTool* const state : {&measured_, &expected_}) {
     state->boundAccelerations(*inputs.tool, command.velocities, limits.reaction_time);
-    collectRows(inputs, *state, rows_);
+    collectRows(inputs, *state);
   }
   const double scale = motion.scale;
   const auto closes = std::find_if(rows_.begin(), rows_.end(), [&](const Row& row) {
-    return row.moves && !opens(row.ball, scale * row.closing, scale * scale * row.acceleration, limits);
+    return !opens(row.ball, scale * row.closing, scale * scale * row.acceleration, limits);
   });
   if (closes == rows_.end()) return;
   motion.scale = 0.0;

@@ -54,18 +54,20 @@ class JointMotionGuard {
   const MotionGuardOptions& options() const { return options_; }
 
  private:
-  // One ball before its plane, in one state.
+  // A ball that the command moves, before a plane, on the way of the command.
   struct Row {
-    FacingBall ball;
+    FacingBall ball;  // where the way begins
     size_t plane;
-    bool moves;           // by the command
-    double closing;       // by the command [m/s]
+    size_t index;         // of the ball in MovingTool::balls()
+    double closing;       // by the command, where the way begins [m/s]
     double acceleration;  // bound on that of the ball until the robot is at rest [m/s^2]
+    double later_gap;     // on the way, as the next [m]
+    double later_closing;
   };
   // For how long a command may go on as a whole, and the row that says so.
   struct Lasting {
     double time;  // [s]
-    std::optional<size_t> row;
+    std::optional<Row> row;
   };
 
   void placeExpectedAndSwept(const MotionInputs& inputs, const MeasuredJoints& joints, const JointCommand& command,
@@ -75,10 +77,11 @@ class JointMotionGuard {
   void requireGuarded(const PlaneSet& planes, const JointCommand& command) const;
   void requireAgreement(const MotionInputs& inputs);
   UncoveredSurfaces uncovered(const MotionInputs& inputs) const;
-  void collectRows(const MotionInputs& inputs, const MovingTool& state, std::vector<Row>& rows);
-  Lasting lasting(const MotionInputs& inputs, const RobotState& from, const JointCommand& command,
+  void collectRows(const MotionInputs& inputs, const MovingTool& state);
+  void moveRowsOn(const MotionInputs& inputs, const RobotState& from, double way, const JointCommand& command);
+  Lasting lasting(const MotionInputs& inputs, const RobotState& from, MovingTool& tool, const JointCommand& command,
                   const BrakingLimits& limits, const StopOnPath& stop);
-  Lasting lastingOn(double way, double tolerance, const BrakingLimits& limits, const StopOnPath& stop) const;
+  double timeUntilClosed(const Row& row, double way, const BrakingLimits& limits, const StopOnPath& stop) const;
   void stopUnlessEveryGapOpens(const MotionInputs& inputs, const JointCommand& command, const BrakingLimits& limits,
                                GuardedMotion& motion);
 
@@ -93,8 +96,7 @@ class JointMotionGuard {
   MovingTool expected_;
   MovingTool later_;
   std::vector<FacingBall> facing_;
-  std::vector<Row> rows_;  // where the way begins
-  std::vector<Row> later_rows_;
+  std::vector<Row> rows_;
 };
 
 }  // namespace sweep_guard_core
