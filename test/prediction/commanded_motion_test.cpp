@@ -9,9 +9,9 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kPeriod = 0.01;    // [s]
-constexpr double kDeadTime = 0.07;  // [s]
-constexpr double kLag = 0.03;       // [s]
+constexpr double kPosePeriod = 0.01;  // [s]
+constexpr double kDeadTime = 0.07;    // [s]
+constexpr double kLag = 0.03;         // [s]
 
 // No operator's motion goes on at constant velocity for long.
 double wantedAt(double t) {
@@ -60,9 +60,9 @@ using CommandAt = std::function<SentCommand(double)>;
 PosePredictor toldUntil(double end, const CommandAt& command) {
   PosePredictor predictor(optionsOf("direct"));
   Plant plant;
-  for (int i = 0; i * kPeriod < end; ++i) {
-    if (command) predictor.command(command(i * kPeriod));
-    predictor.observe({at(i * kPeriod), poseOf(plant.at(i * kPeriod))});
+  for (int i = 0; i * kPosePeriod < end; ++i) {
+    if (command) predictor.command(command(i * kPosePeriod));
+    predictor.observe({at(i * kPosePeriod), poseOf(plant.at(i * kPosePeriod))});
   }
   return predictor;
 }
@@ -76,9 +76,9 @@ double meanError(double ahead, const CommandAt& command) {
   double sum = 0.0;
   int count = 0;
   for (int i = 0; i < 3000; ++i) {
-    if (command) predictor.command(command(i * kPeriod));
-    predictor.observe({at(i * kPeriod), poseOf(plant.at(i * kPeriod))});
-    const Eigen::Vector3d then = poseOf(later.at(i * kPeriod + ahead)).translation();
+    if (command) predictor.command(command(i * kPosePeriod));
+    predictor.observe({at(i * kPosePeriod), poseOf(plant.at(i * kPosePeriod))});
+    const Eigen::Vector3d then = poseOf(later.at(i * kPosePeriod + ahead)).translation();
     predictor.predict({fromSeconds(ahead)}, path);
     if (i < 2000) continue;
     sum += (path.front().X_WT.translation() - then).norm();
@@ -139,11 +139,11 @@ TEST(CommandedMotionTest, ARobotThatDoesNotDoWhatWasSentEndsItAtOnce) {
   Plant plant;
   double stopped = 0.0;
   for (int i = 0; i < 1015; ++i) {
-    const double t = i * kPeriod;
+    const double t = i * kPosePeriod;
     predictor.command(poseCommand(t));
     if (t < 10.0) stopped = plant.at(t);
     predictor.observe({at(t), poseOf(stopped)});
-    if (i == 999) EXPECT_TRUE(predictor.usesCommand());
+    EXPECT_TRUE(i != 999 || predictor.usesCommand());
   }
   EXPECT_FALSE(predictor.usesCommand());
 }
@@ -151,8 +151,8 @@ TEST(CommandedMotionTest, ARobotThatDoesNotDoWhatWasSentEndsItAtOnce) {
 TEST(CommandedMotionTest, NoOtherPredictorHearsOfIt) {
   PosePredictor predictor(optionsOf("constant_velocity"));
   for (int i = 0; i < 300; ++i) {
-    predictor.command(poseCommand(i * kPeriod));
-    predictor.observe({at(i * kPeriod), poseOf(wantedAt(i * kPeriod))});
+    predictor.command(poseCommand(i * kPosePeriod));
+    predictor.observe({at(i * kPosePeriod), poseOf(wantedAt(i * kPosePeriod))});
   }
   EXPECT_FALSE(predictor.usesCommand());
 }
@@ -162,7 +162,7 @@ TEST(CommandedMotionTest, VelocitiesSentPredictTheJointsTheyAreFor) {
   JointPredictor measured(optionsOf("direct"), {{"first"}, {"second"}});
   Plant plant;
   for (int i = 0; i < 2000; ++i) {
-    const double t = i * kPeriod;
+    const double t = i * kPosePeriod;
     told.command({at(t), CommandedJoints{{wantedSpeedAt(t), std::numeric_limits<double>::quiet_NaN()}}});
     for (JointPredictor* const predictor : {&told, &measured}) predictor->observe(at(t), {plant.at(t), plant.at(t)});
   }
