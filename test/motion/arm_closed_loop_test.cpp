@@ -180,12 +180,21 @@ struct Figures {
   size_t free_changed = 0;
 };
 
+// On the whole way until the arm is at rest: 0.1 s, and braking from 0.8 m/s at 2 m/s^2.
+bool leadsAwayUntilRest(const ArmScene& scene, const std::vector<double>& positions, const VectorXd& velocities) {
+  for (const double way : {0.0, 0.1, 0.2, 0.3}) {
+    if (!leadsAway(scene, after({Eigen::Isometry3d::Identity(), positions}, velocities, way).positions, velocities))
+      return false;
+  }
+  return true;
+}
+
 // Until a command that does not lead away.
 void retreat(ArmLoop loop, const std::vector<VectorXd>& commands, Figures& figures) {
   double kept = 1.0;
   int count = 0;
   for (const VectorXd& command : commands) {
-    if (!leadsAway(loop.scene(), loop.positions(), command)) break;
+    if (!leadsAwayUntilRest(loop.scene(), loop.positions(), command)) break;
     kept = std::min(kept, loop.run(command).scale);
     ++count;
   }
@@ -209,7 +218,7 @@ void retreatFrom(const ArmLoop& held, const std::vector<VectorXd>& came, Random&
   retreat(held, back, figures);
   for (int tries = 0, found = 0; tries < 300 && found < 4; ++tries) {
     const VectorXd velocities = velocitiesOf(*held.scene().arm().tree, random, 0.5);
-    if (velocities.isZero() || !leadsAway(held.scene(), held.positions(), velocities)) continue;
+    if (velocities.isZero() || !leadsAwayUntilRest(held.scene(), held.positions(), velocities)) continue;
     retreat(held, speedUp(velocities), figures);
     ++found;
   }

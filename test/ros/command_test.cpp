@@ -37,7 +37,7 @@ class CommandTest : public NodeTest {
   }
 
   static DiagnosticStatus awaitCommandStatus(const std::string& text) {
-    return probe().awaitStatus("sweep_guard: command", [&](const DiagnosticStatus& status) {
+    return probe().awaitStatus("command", [&](const DiagnosticStatus& status) {
       return status.level == DiagnosticStatus::ERROR && status.message.find(text) != std::string::npos;
     });
   }
@@ -52,7 +52,7 @@ class CommandTest : public NodeTest {
 
 TEST_F(CommandTest, ThePredictionSaysThatItIsMadeFromACommandAndNoLongerOnceThatIsSilent) {
   driveUntil("command");
-  probe().awaitStatus("sweep_guard: prediction",
+  probe().awaitStatus("prediction",
                       [](const auto& status) { return valueOf(status, "source") == "command"; });
   for (int i = 0; i < 10; ++i) {
     probe().tick(0.01);

@@ -101,7 +101,7 @@ class TrajectoryWatchTest : public testing::Test {
 };
 
 TEST_F(TrajectoryWatchTest, ATrajectoryUnderWayIsPredictedAndItsRestIsClear) {
-  controller().execute(shoulderGoal("one", {}, {{0.0, 0.0}, {6.0, 1.2}}));
+  controller().execute(shoulderGoal("one", {}, {{0.0, 0.0}, {60.0, 1.2}}));
   const TrajectoryStatus status = awaitStatus("a clear rest", isClear);
   EXPECT_TRUE(status.watching);
   EXPECT_EQ(status.text, "");
