@@ -180,11 +180,14 @@ struct Figures {
   size_t free_changed = 0;
 };
 
-// On the whole way until the arm is at rest: 0.1 s, and braking from 0.8 m/s at 2 m/s^2.
+// On the whole way until the arm is at rest: 0.12 s, and braking.
 bool leadsAwayUntilRest(const ArmScene& scene, const std::vector<double>& positions, const VectorXd& velocities) {
-  for (const double way : {0.0, 0.1, 0.2, 0.3}) {
-    if (!leadsAway(scene, after({Eigen::Isometry3d::Identity(), positions}, velocities, way).positions, velocities))
-      return false;
+  const RobotState from{Eigen::Isometry3d::Identity(), positions};
+  MovingTool tool(scene.arm().tree);
+  tool.place(from, *scene.balls(), velocities);
+  const StopOnPath stop{0.12, tool.fastest() / ArmLoop::options().deceleration};
+  for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    if (!leadsAway(scene, after(from, velocities, share * stop.way(1.0)).positions, velocities)) return false;
   }
   return true;
 }
