@@ -52,8 +52,7 @@ class CommandTest : public NodeTest {
 
 TEST_F(CommandTest, ThePredictionSaysThatItIsMadeFromACommandAndNoLongerOnceThatIsSilent) {
   driveUntil("command");
-  probe().awaitStatus("prediction",
-                      [](const auto& status) { return valueOf(status, "source") == "command"; });
+  probe().awaitStatus("prediction", [](const auto& status) { return valueOf(status, "source") == "command"; });
   for (int i = 0; i < 10; ++i) {
     probe().tick(0.01);
     probe().publish(poseAt({x_ += 0.001, 0.0, 5.0}, probe().time()));
