@@ -48,8 +48,7 @@ JointMotionGuard::JointMotionGuard(const MotionGuardOptions& options, std::share
       velocities_(static_cast<Eigen::Index>(tree_->variables().size())),
       swept_(tree_),
       measured_(tree_),
-      expected_(tree_),
-      later_(tree_) {
+      expected_(tree_) {
   requireUsable(options_);
   facing_.reserve(kRows);
   rows_.reserve(kRows);
@@ -186,11 +185,11 @@ void JointMotionGuard::moveRowsOn(const MotionInputs& inputs, const RobotState& 
                                   const JointCommand& command) {
   later_state_ = from;
   Eigen::Map<Eigen::VectorXd>(later_state_.positions.data(), command.velocities.size()) += way * command.velocities;
-  later_.place(later_state_, *inputs.tool, command.velocities);
+  swept_.place(later_state_, *inputs.tool, command.velocities);
   for (Row& row : rows_) {
     const SeparatingPlane& plane = inputs.planes->planes[row.plane];
-    const MovingTool::Piece& piece = later_.pieces()[plane.piece];
-    const Eigen::Vector3d& center_W = later_.balls()[row.index].center_W;
+    const MovingTool::Piece& piece = swept_.pieces()[plane.piece];
+    const Eigen::Vector3d& center_W = swept_.balls()[row.index].center_W;
     const double radius = inputs.tool->pieces[plane.piece][row.index - piece.first_ball].radius;
     row.later_gap = plane.normal_W.dot(center_W - plane.point_W) - radius;
     row.later_closing = -plane.normal_W.dot(atPoint(piece.twist_W, center_W - piece.X_WL.translation()).v_W);

@@ -91,10 +91,9 @@ class JointMotionGuard {
   RobotState expected_state_;
   RobotState later_state_;  // on the way of the command, or swept
   Eigen::VectorXd velocities_;
-  MovingTool swept_;
+  MovingTool swept_;  // then on the way of the command
   MovingTool measured_;
   MovingTool expected_;
-  MovingTool later_;
   std::vector<FacingBall> facing_;
   std::vector<Row> rows_;
 };
