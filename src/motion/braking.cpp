@@ -44,8 +44,8 @@ double arcAcceleration(const Twist& twist_W, double tool_radius) {
   return tool_radius * turn_rate * turn_rate;
 }
 
-bool opens(const FacingBall& ball, double closing, double acceleration, const BrakingLimits& limits) {
-  return closing + std::max(0.0, ball.surface_speed) + 0.5 * acceleration * limits.reaction_time < 0.0;
+bool opens(double surface_speed, double closing, double acceleration, const BrakingLimits& limits) {
+  return closing + std::max(0.0, surface_speed) + 0.5 * acceleration * limits.reaction_time < 0.0;
 }
 
 double closingSpeed(const FacingBall& ball, const Twist& twist_W) {

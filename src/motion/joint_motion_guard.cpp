@@ -33,6 +33,36 @@ const double* sweptPosition(const PlaneSet& planes, const JointVariable& joint) 
   return index < planes.positions.size() ? &planes.positions[index] : nullptr;
 }
 
+template <typename Visit>
+void forEachMovingBall(const PlaneSet& planes, const ToolBalls& tool, const MovingTool& state, const Visit& visit) {
+  for (size_t i = 0; i < planes.planes.size(); ++i) {
+    const size_t piece = planes.planes[i].piece;
+    const size_t first = state.pieces()[piece].first_ball;
+    for (size_t ball = first; ball < first + tool.pieces[piece].size(); ++ball) {
+      if (state.balls()[ball].speed > 0.0) visit(i, ball);
+    }
+  }
+}
+
+double gapOf(const SeparatingPlane& plane, const MovingTool::Ball& ball) {
+  return plane.normal_W.dot(ball.center_W - plane.point_W) - ball.radius;
+}
+
+double closingOf(const SeparatingPlane& plane, const MovingTool::Ball& ball) { return -plane.normal_W.dot(ball.v_W); }
+
+// What a gap must keep on the way of a command until rest [m], and how fast its surface uses up what it has more, as seen along
+// that way [m/s]. A ball that comes no nearer than it is keeps its gap, whatever its surface does.
+struct KeptGap {
+  KeptGap(const SeparatingPlane& plane, double first_gap, double until_rest, const BrakingLimits& limits,
+          const StopOnPath& stop) {
+    const double surface = std::max(0.0, plane.surface_speed);
+    gap = std::min(first_gap, limits.standoff + surface * until_rest);
+    coming = gap < first_gap ? surface * stop.braking_time / until_rest : 0.0;
+  }
+  double gap;
+  double coming;
+};
+
 PermissionCause ofJoints(PermissionCause cause) {
   if (cause == PermissionCause::kNoPose) return PermissionCause::kNoJoints;
   if (cause == PermissionCause::kPoseSilent) return PermissionCause::kJointsSilent;
@@ -50,8 +80,8 @@ JointMotionGuard::JointMotionGuard(const MotionGuardOptions& options, std::share
       measured_(tree_),
       expected_(tree_) {
   requireUsable(options_);
-  facing_.reserve(kRows);
   rows_.reserve(kRows);
+  pieces_.reserve(kRows);
 }
 
 GuardedMotion JointMotionGuard::guard(const MotionInputs& inputs, const MeasuredJoints& joints,
@@ -124,11 +154,12 @@ void JointMotionGuard::placeExpectedAndSwept(const MotionInputs& inputs, const M
 
 // The balls hold the piece, so that none of its planes is farther from the nearest of them.
 void JointMotionGuard::requireAgreement(const MotionInputs& inputs) {
+  requireUsable(*inputs.planes);
   for (const SeparatingPlane& plane : inputs.planes->planes) {
-    facing_.clear();
-    addFacingBalls(plane, inputs.tool->pieces[plane.piece], swept_.pieces()[plane.piece].X_WL, facing_);
-    const auto farther = [&](const FacingBall& ball) { return ball.gap > plane.gap + kAgreement; };
-    if (std::all_of(facing_.begin(), facing_.end(), farther))
+    const auto first = swept_.balls().begin() + static_cast<std::ptrdiff_t>(swept_.pieces()[plane.piece].first_ball);
+    const auto end = first + static_cast<std::ptrdiff_t>(inputs.tool->pieces[plane.piece].size());
+    const auto farther = [&](const MovingTool::Ball& ball) { return gapOf(plane, ball) > plane.gap + kAgreement; };
+    if (std::all_of(first, end, farther))
       throw InvalidInput("links are not where the guard has them: give both the same robot description and tool_frame");
   }
 }
@@ -144,14 +175,15 @@ void JointMotionGuard::limit(const MotionInputs& inputs, const MeasuredJoints& j
 
   const StopOnPath stop{limits.reaction_time, fastest / limits.deceleration};
   const auto limit_from = [&](const RobotState& from, MovingTool& tool) {
-    const auto [time, row] = lasting(inputs, from, tool, command, limits, stop);
-    const double share = row ? stop.share(time) : 1.0;
-    if (share >= motion.scale) return;
-    motion.scale = share;
-    motion.limiting = GuardedMotion::Limiting{row->plane, row->ball.normal_W, row->ball.gap, share * row->closing};
+    const auto [time, row] = lasting(inputs, from, tool, command, limits, stop, motion.scale);
+    if (!row) return;
+    const SeparatingPlane& plane = inputs.planes->planes[row->plane];
+    motion.scale = std::min(motion.scale, stop.share(time));
+    const double closing = closingOf(plane, tool.balls()[row->ball]);
+    motion.limiting = GuardedMotion::Limiting{row->plane, plane.normal_W, row->first_gap, motion.scale * closing};
   };
-  limit_from(joints.state, measured_);
   limit_from(expected_state_, expected_);
+  limit_from(joints.state, measured_);
   if (escapes) stopUnlessEveryGapOpens(inputs, command, limits, motion);
   motion.sent_speed = motion.scale * motion.commanded_speed;
 }
@@ -159,98 +191,90 @@ void JointMotionGuard::limit(const MotionInputs& inputs, const MeasuredJoints& j
 // Planes are carried by the newest state. A distance as a whole cannot be: any point may have come nearer.
 UncoveredSurfaces JointMotionGuard::uncovered(const MotionInputs& inputs) const {
   UncoveredSurfaces uncovered = inputs.planes->uncovered;
-  requireUsable(uncovered);
   uncovered.distance -= std::max(measured_.largestDisplacement(swept_, *inputs.tool),
                                  expected_.largestDisplacement(swept_, *inputs.tool));
   return uncovered;
-}
-
-void JointMotionGuard::collectRows(const MotionInputs& inputs, const MovingTool& state) {
-  for (size_t i = 0; i < inputs.planes->planes.size(); ++i) {
-    const SeparatingPlane& plane = inputs.planes->planes[i];
-    const MovingTool::Piece& piece = state.pieces()[plane.piece];
-    facing_.clear();
-    addFacingBalls(plane, inputs.tool->pieces[plane.piece], piece.X_WL, facing_);
-    for (size_t j = 0; j < facing_.size(); ++j) {
-      requireUsable(facing_[j]);
-      const MovingTool::Ball& ball = state.balls()[piece.first_ball + j];
-      if (!(ball.speed > 0.0)) continue;
-      const double closing = closingSpeed(facing_[j], piece.twist_W);
-      rows_.push_back({facing_[j], i, piece.first_ball + j, closing, ball.acceleration, facing_[j].gap, closing});
-    }
-  }
-}
-
-void JointMotionGuard::moveRowsOn(const MotionInputs& inputs, const RobotState& from, double way,
-                                  const JointCommand& command) {
-  later_state_ = from;
-  Eigen::Map<Eigen::VectorXd>(later_state_.positions.data(), command.velocities.size()) += way * command.velocities;
-  swept_.place(later_state_, *inputs.tool, command.velocities);
-  for (Row& row : rows_) {
-    const SeparatingPlane& plane = inputs.planes->planes[row.plane];
-    const MovingTool::Piece& piece = swept_.pieces()[plane.piece];
-    const Eigen::Vector3d& center_W = swept_.balls()[row.index].center_W;
-    const double radius = inputs.tool->pieces[plane.piece][row.index - piece.first_ball].radius;
-    row.later_gap = plane.normal_W.dot(center_W - plane.point_W) - radius;
-    row.later_closing = -plane.normal_W.dot(atPoint(piece.twist_W, center_W - piece.X_WL.translation()).v_W);
-  }
 }
 
 // By conservative advancement [Mirtich 1996]: from where each gap lasts for sure, the next step begins. What lasts to the end is
 // seen no more.
 JointMotionGuard::Lasting JointMotionGuard::lasting(const MotionInputs& inputs, const RobotState& from,
                                                     MovingTool& tool, const JointCommand& command,
-                                                    const BrakingLimits& limits, const StopOnPath& stop) {
-  const double whole_way = stop.way(1.0);
-  tool.boundAccelerations(*inputs.tool, command.velocities, whole_way);
-  rows_.clear();
-  collectRows(inputs, tool);
+                                                    const BrakingLimits& limits, const StopOnPath& stop, double scale) {
+  const double way = stop.way(scale);
+  const double tolerance = kJointRounding * stop.braking_time * limits.deceleration;
+  tool.boundAccelerations(*inputs.tool, command.velocities, way);
+  collectRows(inputs, tool, limits, stop, way);
   Lasting lasts{0.0, {}};
   for (int step = 0; step < kMostSteps; ++step) {
-    if (step > 0) moveRowsOn(inputs, from, lasts.time, command);
-    double least = whole_way - lasts.time;
+    if (step > 0) moveRowsOn(inputs, from, command, lasts.time);
+    const double left = way - lasts.time;
+    const double until_rest = stop.untilRest(stop.share(lasts.time));
+    double least = left;
     const auto lasts_to_the_end = [&](const Row& row) {
-      const double time = timeUntilClosed(row, lasts.time, limits, stop);
-      if (time >= whole_way - lasts.time) return true;
+      const KeptGap kept(inputs.planes->planes[row.plane], row.first_gap, until_rest, limits, stop);
+      const double closing = row.closing + kept.coming;
+      const double time = timeUntilClosed(std::max(0.0, row.gap - kept.gap),
+                                          std::abs(closing) > tolerance ? closing : 0.0, row.acceleration);
+      if (time >= left) return true;
       if (time < least) lasts.row = row;
       least = std::min(least, time);
       return false;
     };
     rows_.erase(std::remove_if(rows_.begin(), rows_.end(), lasts_to_the_end), rows_.end());
-    if (rows_.empty()) return {whole_way, {}};
+    if (rows_.empty()) return {way, {}};
     lasts.time += least;
-    if (least < kLeastStep * whole_way && lasts.row->later_closing > 0.0) break;
+    if (least < kLeastStep * way && lasts.row->closing > 0.0) break;
   }
   return lasts;
 }
 
-// A ball that comes no nearer than it is keeps its gap, whatever its surface does.
-double JointMotionGuard::timeUntilClosed(const Row& row, double way, const BrakingLimits& limits,
-                                         const StopOnPath& stop) const {
+// Without those that no motion at their speed brings near their planes on the way.
+void JointMotionGuard::collectRows(const MotionInputs& inputs, const MovingTool& state, const BrakingLimits& limits,
+                                   const StopOnPath& stop, double way) {
+  rows_.clear();
   const double until_rest = stop.untilRest(stop.share(way));
-  const double surface = std::max(0.0, row.ball.surface_speed);
-  const double kept = std::min(row.ball.gap, limits.standoff + surface * until_rest);
-  const double coming = kept < row.ball.gap ? surface * stop.braking_time / until_rest : 0.0;
-  const double closing = row.later_closing + coming;
-  const double tolerance = kJointRounding * stop.braking_time * limits.deceleration;
-  return sweep_guard_core::timeUntilClosed(std::max(0.0, row.later_gap - kept),
-                                           std::abs(closing) > tolerance ? closing : 0.0, row.acceleration);
+  forEachMovingBall(*inputs.planes, *inputs.tool, state, [&](size_t plane_index, size_t ball_index) {
+    const SeparatingPlane& plane = inputs.planes->planes[plane_index];
+    const MovingTool::Ball& ball = state.balls()[ball_index];
+    const double gap = gapOf(plane, ball);
+    const double travel = (ball.speed + 0.5 * ball.acceleration * way) * way;
+    if (gap - limits.standoff - std::max(0.0, plane.surface_speed) * until_rest > travel) return;
+    rows_.push_back({plane_index, ball_index, gap, gap, closingOf(plane, ball), ball.acceleration});
+  });
+}
+
+void JointMotionGuard::moveRowsOn(const MotionInputs& inputs, const RobotState& from, const JointCommand& command,
+                                  double way) {
+  const auto& planes = inputs.planes->planes;
+  later_state_ = from;
+  Eigen::Map<Eigen::VectorXd>(later_state_.positions.data(), command.velocities.size()) += way * command.velocities;
+  pieces_.clear();
+  for (const Row& row : rows_) {
+    const size_t piece = planes[row.plane].piece;
+    if (std::find(pieces_.begin(), pieces_.end(), piece) == pieces_.end()) pieces_.push_back(piece);
+  }
+  swept_.placeAgain(later_state_, *inputs.tool, command.velocities, pieces_);
+  for (Row& row : rows_) {
+    row.gap = gapOf(planes[row.plane], swept_.balls()[row.ball]);
+    row.closing = closingOf(planes[row.plane], swept_.balls()[row.ball]);
+  }
 }
 
 void JointMotionGuard::stopUnlessEveryGapOpens(const MotionInputs& inputs, const JointCommand& command,
                                                const BrakingLimits& limits, GuardedMotion& motion) {
-  rows_.clear();
-  for (MovingTool* const state : {&measured_, &expected_}) {
-    state->boundAccelerations(*inputs.tool, command.velocities, limits.reaction_time);
-    collectRows(inputs, *state);
-  }
   const double scale = motion.scale;
-  const auto closes = std::find_if(rows_.begin(), rows_.end(), [&](const Row& row) {
-    return !opens(row.ball, scale * row.closing, scale * scale * row.acceleration, limits);
-  });
-  if (closes == rows_.end()) return;
-  motion.scale = 0.0;
-  motion.limiting = GuardedMotion::Limiting{closes->plane, closes->ball.normal_W, closes->ball.gap, 0.0};
+  for (MovingTool* const state : {&expected_, &measured_}) {
+    state->boundAccelerations(*inputs.tool, command.velocities, limits.reaction_time);
+    forEachMovingBall(*inputs.planes, *inputs.tool, *state, [&](size_t plane_index, size_t ball_index) {
+      const SeparatingPlane& plane = inputs.planes->planes[plane_index];
+      const MovingTool::Ball& ball = state->balls()[ball_index];
+      const double closing = scale * closingOf(plane, ball);
+      if (motion.scale == 0.0 || opens(plane.surface_speed, closing, scale * scale * ball.acceleration, limits)) return;
+      motion.scale = 0.0;
+      motion.limiting = GuardedMotion::Limiting{plane_index, plane.normal_W, gapOf(plane, ball), 0.0};
+    });
+  }
 }
 
 }  // namespace sweep_guard_core

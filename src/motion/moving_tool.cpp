@@ -40,14 +40,29 @@ void MovingTool::place(const RobotState& state, const ToolBalls& tool, const Eig
   balls_.clear();
   fastest_ = 0.0;
   for (size_t i = 0; i < tool.pieces.size(); ++i) {
-    const size_t link = linkOf(tool, i, *tree_).value();
-    const Eigen::Isometry3d X_WL = state.X_WR * poseOf(link, X_RL_);
-    pieces_.push_back({link, X_WL, twistOf(link, state.X_WR.linear(), velocities), balls_.size()});
-    for (const ToolBall& ball : tool.pieces[i]) {
-      const Twist center_W = atPoint(pieces_.back().twist_W, X_WL.linear() * ball.center_T);
-      balls_.push_back({X_WL * ball.center_T, center_W.v_W.norm() + center_W.w_W.norm() * ball.radius, 0.0});
-      fastest_ = std::max(fastest_, balls_.back().speed);
-    }
+    pieces_.push_back({linkOf(tool, i, *tree_).value(), {}, {}, balls_.size()});
+    balls_.resize(balls_.size() + tool.pieces[i].size());
+    placePiece(i, state, tool.pieces[i], velocities);
+  }
+  for (const Ball& ball : balls_) fastest_ = std::max(fastest_, ball.speed);
+}
+
+void MovingTool::placeAgain(const RobotState& state, const ToolBalls& tool, const Eigen::VectorXd& velocities,
+                            const std::vector<size_t>& pieces) {
+  tree_->poses(state.positions, X_RL_);
+  for (const size_t piece : pieces) placePiece(piece, state, tool.pieces[piece], velocities);
+}
+
+void MovingTool::placePiece(size_t piece, const RobotState& state, const std::vector<ToolBall>& balls_L,
+                            const Eigen::VectorXd& velocities) {
+  Piece& placed = pieces_[piece];
+  placed.X_WL = state.X_WR * poseOf(placed.link, X_RL_);
+  placed.twist_W = twistOf(placed.link, state.X_WR.linear(), velocities);
+  for (size_t i = 0; i < balls_L.size(); ++i) {
+    const Eigen::Vector3d from_origin_W = placed.X_WL.linear() * balls_L[i].center_T;
+    const Eigen::Vector3d v_W = atPoint(placed.twist_W, from_origin_W).v_W;
+    const double speed = v_W.norm() + placed.twist_W.w_W.norm() * balls_L[i].radius;
+    balls_[placed.first_ball + i] = {placed.X_WL.translation() + from_origin_W, v_W, balls_L[i].radius, speed, 0.0};
   }
 }
 

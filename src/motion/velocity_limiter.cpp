@@ -96,7 +96,7 @@ Twist escapeVelocity(const Twist& command_W, const std::vector<FacingBall>& faci
   const Twist escape_W{scale * command_W.v_W, scale * command_W.w_W};
   const double acceleration = limits.tool_radius * escape_W.w_W.squaredNorm();
   const bool all_grow = std::all_of(facing.begin(), facing.end(), [&](const FacingBall& ball) {
-    return opens(ball, closingSpeed(ball, escape_W), acceleration, limits);
+    return opens(ball.surface_speed, closingSpeed(ball, escape_W), acceleration, limits);
   });
   return all_grow ? escape_W : Twist{};
 }

@@ -64,7 +64,7 @@ double arcAcceleration(const Twist& twist_W, double tool_radius);
 
 /// Returns whether a gap grows until the next command although its surface comes and the ball runs along an arc.
 /// @param closing, acceleration  speed [m/s] by the tool's own motion, and as for closingLimit()
-bool opens(const FacingBall& ball, double closing, double acceleration, const BrakingLimits& limits);
+bool opens(double surface_speed, double closing, double acceleration, const BrakingLimits& limits);
 
 /// Returns how fast the tool's own motion brings a ball closer to its plane [m/s]; negative: the gap grows.
 double closingSpeed(const FacingBall& ball, const Twist& twist_W);

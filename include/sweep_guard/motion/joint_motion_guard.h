@@ -54,15 +54,14 @@ class JointMotionGuard {
   const MotionGuardOptions& options() const { return options_; }
 
  private:
-  // A ball that the command moves, before a plane, on the way of the command.
+  // A ball that the command moves, before a plane: where its way begins, and then on it.
   struct Row {
-    FacingBall ball;  // where the way begins
     size_t plane;
-    size_t index;         // of the ball in MovingTool::balls()
-    double closing;       // by the command, where the way begins [m/s]
+    size_t ball;          // index into MovingTool::balls()
+    double first_gap;     // [m]
+    double gap;           // [m]
+    double closing;       // by the command [m/s]
     double acceleration;  // bound on that of the ball until the robot is at rest [m/s^2]
-    double later_gap;     // on the way, as the next [m]
-    double later_closing;
   };
   // For how long a command may go on as a whole, and the row that says so.
   struct Lasting {
@@ -77,11 +76,11 @@ class JointMotionGuard {
   void requireGuarded(const PlaneSet& planes, const JointCommand& command) const;
   void requireAgreement(const MotionInputs& inputs);
   UncoveredSurfaces uncovered(const MotionInputs& inputs) const;
-  void collectRows(const MotionInputs& inputs, const MovingTool& state);
-  void moveRowsOn(const MotionInputs& inputs, const RobotState& from, double way, const JointCommand& command);
   Lasting lasting(const MotionInputs& inputs, const RobotState& from, MovingTool& tool, const JointCommand& command,
-                  const BrakingLimits& limits, const StopOnPath& stop);
-  double timeUntilClosed(const Row& row, double way, const BrakingLimits& limits, const StopOnPath& stop) const;
+                  const BrakingLimits& limits, const StopOnPath& stop, double scale);
+  void collectRows(const MotionInputs& inputs, const MovingTool& state, const BrakingLimits& limits,
+                   const StopOnPath& stop, double way);
+  void moveRowsOn(const MotionInputs& inputs, const RobotState& from, const JointCommand& command, double way);
   void stopUnlessEveryGapOpens(const MotionInputs& inputs, const JointCommand& command, const BrakingLimits& limits,
                                GuardedMotion& motion);
 
@@ -94,8 +93,8 @@ class JointMotionGuard {
   MovingTool swept_;  // then on the way of the command
   MovingTool measured_;
   MovingTool expected_;
-  std::vector<FacingBall> facing_;
   std::vector<Row> rows_;
+  std::vector<size_t> pieces_;  // of the rows
 };
 
 }  // namespace sweep_guard_core

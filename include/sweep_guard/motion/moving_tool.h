@@ -35,6 +35,8 @@ class MovingTool {
   };
   struct Ball {
     Eigen::Vector3d center_W;  ///< [m]
+    Eigen::Vector3d v_W;       ///< of its center [m/s]
+    double radius;             ///< [m]
     double speed;              ///< of its fastest point [m/s]
     double acceleration;       ///< bound on that of its center by boundAccelerations() [m/s^2]; 0 before
   };
@@ -46,6 +48,12 @@ class MovingTool {
   /// @param tool        each piece has a link of the tree (linkOf())
   /// @param velocities  of each variable [rad/s or m/s]
   void place(const RobotState& state, const ToolBalls& tool, const Eigen::VectorXd& velocities);
+
+  /// Places some pieces again; all others stay where they were.
+  /// @param tool    as it was placed
+  /// @param pieces  indices
+  void placeAgain(const RobotState& state, const ToolBalls& tool, const Eigen::VectorXd& velocities,
+                  const std::vector<size_t>& pieces);
 
   /// Bounds the acceleration of each ball while the joints go on at these velocities for a time.
   /// @param tool, velocities  as they were placed
@@ -60,6 +68,8 @@ class MovingTool {
   double largestDisplacement(const MovingTool& from, const ToolBalls& tool) const;
 
  private:
+  void placePiece(size_t piece, const RobotState& state, const std::vector<ToolBall>& balls_L,
+                  const Eigen::VectorXd& velocities);
   Twist twistOf(size_t link, const Eigen::Matrix3d& R_WR, const Eigen::VectorXd& velocities);
   double accelerationOf(size_t link, const Eigen::Vector3d& p_L, const Eigen::VectorXd& velocities, double time) const;
 
