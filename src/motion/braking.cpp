@@ -22,13 +22,6 @@ double stoppingSpeed(double distance, const BrakingLimits& limits) {
   return 2.0 / (per_distance + std::sqrt(per_distance * per_distance + 2.0 / (limits.deceleration * distance)));
 }
 
-double closingLimit(const FacingBall& ball, double acceleration, const BrakingLimits& limits) {
-  const double t = limits.reaction_time;
-  const double distance = ball.gap - limits.standoff - 0.5 * acceleration * t * t;
-  const double closing = stoppingSpeed(distance / (1.0 + acceleration / limits.deceleration), limits);
-  return std::max(0.0, closing - std::max(0.0, ball.surface_speed));
-}
-
 double StopOnPath::share(double way) const {
   return 2.0 * way / (reaction_time + std::sqrt(reaction_time * reaction_time + 2.0 * braking_time * way));
 }
@@ -39,17 +32,28 @@ double timeUntilClosed(double gap, double closing, double acceleration) {
   return acceleration > 0.0 ? (root - closing) / acceleration : std::numeric_limits<double>::infinity();
 }
 
-double arcAcceleration(const Twist& twist_W, double tool_radius) {
-  const double turn_rate = twist_W.w_W.norm();
-  return tool_radius * turn_rate * turn_rate;
-}
-
 bool opens(double surface_speed, double closing, double acceleration, const BrakingLimits& limits) {
   return closing + std::max(0.0, surface_speed) + 0.5 * acceleration * limits.reaction_time < 0.0;
 }
 
 double closingSpeed(const FacingBall& ball, const Twist& twist_W) {
   return -ball.normal_W.dot(twist_W.v_W + twist_W.w_W.cross(ball.center_W));
+}
+
+// Along its circle the ball is at x cos(angle) + y sin(angle) along the normal, which is also how fast, in units of |w|^2, the
+// closing speed grows there.
+double arcClosing(const FacingBall& ball, const Eigen::Vector3d& w_W, double time) {
+  const double turn_rate = w_W.norm();
+  if (turn_rate == 0.0) return 0.0;
+  const Eigen::Vector3d axis_W = w_W / turn_rate;
+  const double x = ball.normal_W.dot(ball.center_W - axis_W.dot(ball.center_W) * axis_W);
+  const double y = ball.normal_W.dot(axis_W.cross(ball.center_W));
+  const double angle = turn_rate * time;
+  const double cosine = std::cos(angle);
+  const double sine = std::sin(angle);
+  const bool passes_the_largest = angle >= M_PI || (y > 0.0 && y * cosine < x * sine);
+  const double largest = passes_the_largest ? std::hypot(x, y) : std::max({0.0, x, x * cosine + y * sine});
+  return 0.5 * turn_rate * turn_rate * largest * time;
 }
 
 double fastestPoint(const Twist& twist_W, double tool_radius) {

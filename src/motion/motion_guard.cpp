@@ -104,13 +104,12 @@ std::optional<GuardedMotion::Limiting> MotionGuard::limiting(const Twist& comman
                                                              const BrakingLimits& limits) const {
   std::optional<GuardedMotion::Limiting> most;
   double largest_excess = 0.0;
-  const double acceleration = arcAcceleration(command_W, limits.tool_radius);
   for (size_t i = 0; i < facing_.size(); ++i) {
-    const double allowed = closingLimit(facing_[i], acceleration, limits);
-    const double excess = closingSpeed(facing_[i], command_W) - allowed;
+    const ClosingRow row(facing_[i], command_W, limits);
+    const double excess = row.closing(command_W.v_W, 1.0) - row.limit;
     if (excess <= largest_excess) continue;
     largest_excess = excess;
-    most = GuardedMotion::Limiting{plane_of_[i], facing_[i].normal_W, facing_[i].gap, allowed};
+    most = GuardedMotion::Limiting{plane_of_[i], row.normal_W, facing_[i].gap, row.limit};
   }
   return most;
 }

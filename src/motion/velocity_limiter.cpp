@@ -11,7 +11,26 @@ namespace {
 constexpr double kCommandRounding = 1e-11;  // of the command itself
 constexpr double kMaxRounding = 1.5e-6;     // of the nearest velocity, between planes that are nearly parallel
 
+constexpr double kWhole = 1.0 - 1e-9;  // of a scale: rounding of the way until rest
+
 }  // namespace
+
+// The fastest point of what is sent goes at most as fast as the ball closes, and as it goes on beside that.
+ClosingRow::ClosingRow(const FacingBall& ball, const Twist& command_W, const BrakingLimits& limits)
+    : normal_W(ball.normal_W),
+      turning(-ball.normal_W.dot(command_W.w_W.cross(ball.center_W))),
+      distance(ball.gap - limits.standoff),
+      surface_speed(std::max(0.0, ball.surface_speed)) {
+  const double per_speed = 0.5 / limits.deceleration;
+  const double sliding = (command_W.v_W - std::min(0.0, normal_W.dot(command_W.v_W)) * normal_W).norm();
+  const double turning_on = limits.tool_radius * command_W.w_W.norm() - std::max(0.0, turning);
+  const double beside = sliding + std::max(0.0, turning_on);
+  BrakingLimits along_path = limits;
+  along_path.reaction_time += beside * per_speed;
+  limit = std::max(0.0, stoppingSpeed(distance - surface_speed * beside * per_speed, along_path) - surface_speed);
+  turning +=
+      arcClosing(ball, command_W.w_W, limits.reaction_time + fastestPoint(command_W, limits.tool_radius) * per_speed);
+}
 
 VelocityLimiter::VelocityLimiter(size_t balls) {
   rows_.reserve(balls);
@@ -26,24 +45,28 @@ Twist VelocityLimiter::limit(const Twist& command_W, const std::vector<FacingBal
   collectRows(command_W, facing, limits);
   const double allowed = allowedSpeed(uncovered, limits);
   const double fastest = fastestPoint(command_W, limits.tool_radius);
-  if (fastest <= allowed && largestScale(command_W.v_W, 1.0, kCommandRounding * fastest) == 1.0) return command_W;
+  const double exact = kCommandRounding * fastest;
+  if (fastest <= allowed && largestScale(command_W.v_W, 1.0, exact) == 1.0 &&
+      stoppingScale(command_W, 1.0, limits, exact) == 1.0)
+    return command_W;
 
   const Eigen::Vector4d motion = nearest(command_W);
-  const Eigen::Vector3d v_W = motion.head<3>();
   const double s = motion[3];
-  const double speed = fastestPoint({v_W, s * command_W.w_W}, limits.tool_radius);
-  const double scale = std::min(largestScale(v_W, s, kMaxRounding * fastest), speed > allowed ? allowed / speed : 1.0);
-  return {scale * v_W, scale * s * command_W.w_W};
+  const Twist nearest_W{motion.head<3>(), s * command_W.w_W};
+  const double speed = fastestPoint(nearest_W, limits.tool_radius);
+  const double tolerance = kMaxRounding * fastest;
+  const double scale =
+      std::min({largestScale(nearest_W.v_W, s, tolerance), stoppingScale(nearest_W, s, limits, tolerance),
+                speed > allowed ? allowed / speed : 1.0});
+  return {scale * nearest_W.v_W, scale * nearest_W.w_W};
 }
 
 void VelocityLimiter::collectRows(const Twist& command_W, const std::vector<FacingBall>& facing,
                                   const BrakingLimits& limits) {
-  const double acceleration = arcAcceleration(command_W, limits.tool_radius);
   rows_.clear();
   for (const FacingBall& ball : facing) {
     requireUsable(ball);
-    const double turning = -ball.normal_W.dot(command_W.w_W.cross(ball.center_W));
-    rows_.push_back({ball.normal_W, turning, closingLimit(ball, acceleration, limits)});
+    rows_.emplace_back(ball, command_W, limits);
   }
 }
 
@@ -53,7 +76,7 @@ void VelocityLimiter::collectHalfSpaces(double speed) {
   half_spaces_.clear();
   half_spaces_.push_back({Eigen::Vector4d::UnitW(), 1.0});
   half_spaces_.push_back({-Eigen::Vector4d::UnitW(), 0.0});
-  for (const Row& row : rows_) {
+  for (const ClosingRow& row : rows_) {
     Eigen::Vector4d gradient;
     gradient << -speed * row.normal_W, row.turning;
     const double length = gradient.stableNorm();
@@ -77,11 +100,29 @@ Eigen::Vector4d VelocityLimiter::nearest(const Twist& command_W) {
 // Returns the largest share of a motion at which no plane is closed on too fast.
 double VelocityLimiter::largestScale(const Eigen::Vector3d& v_W, double s, double tolerance) const {
   double scale = 1.0;
-  for (const Row& row : rows_) {
+  for (const ClosingRow& row : rows_) {
     const double closing = row.closing(v_W, s);
     if (closing > row.limit + tolerance) scale = std::min(scale, row.limit / closing);
   }
   return scale;
+}
+
+// Returns the largest share with which every ball stops in time along the path of a motion, whatever the other planes have made
+// of the command: its way until rest at a closing speed c, c (s t + s^2 b / 2), and that of the surface, speed (t + s b), fit into
+// the distance.
+double VelocityLimiter::stoppingScale(const Twist& twist_W, double s, const BrakingLimits& limits,
+                                      double tolerance) const {
+  const double braking_time = fastestPoint(twist_W, limits.tool_radius) / limits.deceleration;
+  double scale = 1.0;
+  for (const ClosingRow& row : rows_) {
+    const double closing = row.closing(twist_W.v_W, s) - tolerance;
+    if (closing <= 0.0) continue;
+    const double distance = std::max(0.0, row.distance - row.surface_speed * limits.reaction_time);
+    const double linear = closing * limits.reaction_time + row.surface_speed * braking_time;
+    const double root = std::sqrt(linear * linear + 2.0 * closing * braking_time * distance);
+    scale = std::min(scale, 2.0 * distance / (linear + root));
+  }
+  return scale > kWhole ? 1.0 : scale;
 }
 
 Twist escapeVelocity(const Twist& command_W, const std::vector<FacingBall>& facing, const UncoveredSurfaces& uncovered,

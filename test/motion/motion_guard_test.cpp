@@ -376,8 +376,7 @@ TEST(MotionGuardTest, NoOutputClosesFasterThanItMayAtTheNewestAndTheExpectedPose
     for (const Isometry3d& pose_WT : {X_WT, drawn.command.rest_WT.value_or(X_WT)}) {
       for (const FacingBall& ball : facing(drawn, pose_WT)) {
         const double tolerance = 2e-6 * fastestPoint(command_W, limits.tool_radius) + 1e-12;
-        EXPECT_LE(closingSpeed(ball, motion.twist_W),
-                  closingLimit(ball, arcAcceleration(command_W, limits.tool_radius), limits) + tolerance);
+        EXPECT_LE(closingSpeed(ball, motion.twist_W), ClosingRow(ball, command_W, limits).limit + tolerance);
       }
     }
     EXPECT_LE(motion.twist_W.v_W.norm(), command_W.v_W.norm() * (1.0 + 1e-12));

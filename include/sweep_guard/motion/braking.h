@@ -34,13 +34,6 @@ struct UncoveredSurfaces {
 /// + v reaction_time = distance; 0 for a negative distance.
 double stoppingSpeed(double distance, const BrakingLimits& limits);
 
-/// Returns the largest speed [m/s], >= 0, at which the tool's own motion may bring a ball closer to a plane while the
-/// ball runs along an arc. At this speed u, with c = u + the surface's speed to the tool, c^2 / (2 deceleration) + c
-/// reaction_time + acceleration T^2 / 2 <= gap - standoff, where T = reaction_time + c / deceleration is the time until
-/// the ball is at rest. 0 if the surface comes faster than that. A surface that goes away counts as at rest.
-/// @param acceleration  bound on that of the ball while the motion goes on as it is [m/s^2], >= 0
-double closingLimit(const FacingBall& ball, double acceleration, const BrakingLimits& limits);
-
 /// How a robot comes to rest that carries out a share of a command and is then stopped. No point leaves its path: for the reaction
 /// time all go on, and then brake at one rate, the fastest one at `deceleration`. Ways along the path are times for which the
 /// whole command would take them [s].
@@ -59,15 +52,19 @@ struct StopOnPath {
 /// @param acceleration  bound on how fast the closing speed grows [m/s^2], >= 0
 double timeUntilClosed(double gap, double closing, double acceleration);
 
-/// Returns a bound on the acceleration of any tool point to the axis of a turn [m/s^2].
-double arcAcceleration(const Twist& twist_W, double tool_radius);
-
 /// Returns whether a gap grows until the next command although its surface comes and the ball runs along an arc.
-/// @param closing, acceleration  speed [m/s] by the tool's own motion, and as for closingLimit()
+/// @param surface_speed  to the ball [m/s]
+/// @param closing        speed by the tool's own motion [m/s]
+/// @param acceleration   bound on that of the ball while the motion goes on as it is [m/s^2], >= 0
 bool opens(double surface_speed, double closing, double acceleration, const BrakingLimits& limits);
 
 /// Returns how fast the tool's own motion brings a ball closer to its plane [m/s]; negative: the gap grows.
 double closingSpeed(const FacingBall& ball, const Twist& twist_W);
+
+/// Returns the average speed at which its arc brings a ball closer to its plane while the tool turns for a time [m/s]: an upper
+/// bound, >= 0, that also holds for slower turns.
+/// @param time  [s], >= 0
+double arcClosing(const FacingBall& ball, const Eigen::Vector3d& w_W, double time);
 
 /// Returns an upper bound of the speed of any tool point [m/s].
 double fastestPoint(const Twist& twist_W, double tool_radius);
