@@ -15,7 +15,13 @@ constexpr double kMaxJointSpeed = 1e6;    // of a command [rad/s], [m/s]
 constexpr double kAgreement = 1e-3;       // of the guard's robot and this one [m]
 constexpr double kJointRounding = 1e-11;  // of a closing speed, in commanded speeds of the fastest tool point
 constexpr int kMostSteps = 32;            // along the way of a command
-constexpr double kLeastStep = 1e-4;       // of the way
+constexpr double kLeastStep = 1e-4;       // of the way so far
+constexpr double kLeastWay = 1e-6;        // of all of it
+constexpr double kShorterWay = 4.0;       // in what lasts for sure
+constexpr size_t kMostSamples = 64;       // of the speeds on that way
+constexpr double kLeastSample = 0.02;     // between two of them, of the way
+constexpr double kMostSample = 0.25;
+constexpr double kSampledAngle = 0.3;  // by all joints together [rad]
 
 void requireUsableCommand(const JointCommand& command, const std::vector<double>& positions, size_t variables) {
   const auto& velocities = command.velocities;
@@ -82,6 +88,7 @@ JointMotionGuard::JointMotionGuard(const MotionGuardOptions& options, std::share
   requireUsable(options_);
   rows_.reserve(kRows);
   pieces_.reserve(kRows);
+  stops_.reserve(kMostSamples);
 }
 
 GuardedMotion JointMotionGuard::guard(const MotionInputs& inputs, const MeasuredJoints& joints,
@@ -166,26 +173,61 @@ void JointMotionGuard::requireAgreement(const MotionInputs& inputs) {
 
 void JointMotionGuard::limit(const MotionInputs& inputs, const MeasuredJoints& joints, const JointCommand& command,
                              const BrakingLimits& limits, GuardedMotion& motion) {
-  const double fastest = std::max(measured_.fastest(), expected_.fastest());
   double allowed = allowedSpeed(uncovered(inputs), limits);
+  sampleSpeeds(inputs, command, limits);
+  const auto& [stop, way] = stops_.back();
+  const double fastest = stop.braking_time * limits.deceleration;
   const bool escapes = motion.decision.permission == Permission::kEscape;
   if (escapes) allowed = std::min(allowed, options_.escape_speed);
   if (motion.decision.cause == PermissionCause::kUnseen) allowed = std::min(allowed, options_.unseen_speed);
-  motion.scale = fastest > allowed ? allowed / fastest : 1.0;
+  motion.scale = std::min(fastest > allowed ? allowed / fastest : 1.0, way < stop.way(1.0) ? shareWithin(way) : 1.0);
 
-  const StopOnPath stop{limits.reaction_time, fastest / limits.deceleration};
+  // Bounds are wide over a way that is long: where the walk has ended too early, it begins again on a shorter one.
   const auto limit_from = [&](const RobotState& from, MovingTool& tool) {
-    const auto [time, row] = lasting(inputs, from, tool, command, limits, stop, motion.scale);
-    if (!row) return;
-    const SeparatingPlane& plane = inputs.planes->planes[row->plane];
-    motion.scale = std::min(motion.scale, stop.share(time));
-    const double closing = closingOf(plane, tool.balls()[row->ball]);
-    motion.limiting = GuardedMotion::Limiting{row->plane, plane.normal_W, row->first_gap, motion.scale * closing};
+    for (const double longer : {kShorterWay, kShorterWay, kShorterWay, 1.0}) {
+      const auto [time, row, is_near] = lasting(inputs, from, tool, command, limits, stops_.back().stop, motion.scale);
+      if (!row) return;
+      const SeparatingPlane& plane = inputs.planes->planes[row->plane];
+      motion.scale = std::min(motion.scale, shareWithin(is_near ? time : longer * time));
+      const double closing = closingOf(plane, tool.balls()[row->ball]);
+      motion.limiting = GuardedMotion::Limiting{row->plane, plane.normal_W, row->first_gap, motion.scale * closing};
+      if (is_near) return;
+    }
   };
   limit_from(expected_state_, expected_);
   limit_from(joints.state, measured_);
   if (escapes) stopUnlessEveryGapOpens(inputs, command, limits, motion);
   motion.sent_speed = motion.scale * motion.commanded_speed;
+}
+
+// What unfolds becomes faster on its way, and braking takes as long as its fastest point there needs. Between two samples that is
+// faster than in both by the square of the angle between them / 8 at most, as far as its jerk is its speed times the square of the
+// turn rates: a hundredth.
+void JointMotionGuard::sampleSpeeds(const MotionInputs& inputs, const JointCommand& command,
+                                    const BrakingLimits& limits) {
+  const double turn_rate = command.velocities.lpNorm<1>();
+  stops_.assign(
+      1, {{limits.reaction_time, std::max(measured_.fastest(), expected_.fastest()) / limits.deceleration}, 0.0});
+  while (stops_.size() < kMostSamples && stops_.back().way < stops_.back().stop.way(1.0)) {
+    Sample sample = stops_.back();
+    const double whole_way = sample.stop.way(1.0);
+    const double left = std::max(whole_way - sample.way, kLeastSample * whole_way);
+    sample.way += std::min({left, kMostSample * whole_way, kSampledAngle / turn_rate});
+    moveOn(expected_state_, command, sample.way);
+    swept_.place(later_state_, *inputs.tool, command.velocities);
+    sample.stop.braking_time = std::max(sample.stop.braking_time, swept_.fastest() / limits.deceleration);
+    stops_.push_back(sample);
+  }
+}
+
+// Returns the largest share of a command that is at rest within a way.
+double JointMotionGuard::shareWithin(double way) const {
+  double share = 0.0;
+  for (const Sample& sample : stops_) {
+    share = std::max(share, sample.stop.share(std::min(sample.way, way)));
+    if (sample.way >= way) break;
+  }
+  return share;
 }
 
 // Planes are carried by the newest state. A distance as a whole cannot be: any point may have come nearer.
@@ -205,7 +247,7 @@ JointMotionGuard::Lasting JointMotionGuard::lasting(const MotionInputs& inputs, 
   const double tolerance = kJointRounding * stop.braking_time * limits.deceleration;
   tool.boundAccelerations(*inputs.tool, command.velocities, way);
   collectRows(inputs, tool, limits, stop, way);
-  Lasting lasts{0.0, {}};
+  Lasting lasts{0.0, {}, false};
   for (int step = 0; step < kMostSteps; ++step) {
     if (step > 0) moveRowsOn(inputs, from, command, lasts.time);
     const double left = way - lasts.time;
@@ -222,9 +264,10 @@ JointMotionGuard::Lasting JointMotionGuard::lasting(const MotionInputs& inputs, 
       return false;
     };
     rows_.erase(std::remove_if(rows_.begin(), rows_.end(), lasts_to_the_end), rows_.end());
-    if (rows_.empty()) return {way, {}};
+    if (rows_.empty()) return {way, {}, true};
     lasts.time += least;
-    if (least < kLeastStep * way && lasts.row->closing > 0.0) break;
+    lasts.is_near = least < kLeastStep * std::max(lasts.time, kLeastWay * way) && lasts.row->closing > 0.0;
+    if (lasts.is_near) break;
   }
   return lasts;
 }
@@ -244,11 +287,15 @@ void JointMotionGuard::collectRows(const MotionInputs& inputs, const MovingTool&
   });
 }
 
+void JointMotionGuard::moveOn(const RobotState& from, const JointCommand& command, double way) {
+  later_state_ = from;
+  Eigen::Map<Eigen::VectorXd>(later_state_.positions.data(), command.velocities.size()) += way * command.velocities;
+}
+
 void JointMotionGuard::moveRowsOn(const MotionInputs& inputs, const RobotState& from, const JointCommand& command,
                                   double way) {
   const auto& planes = inputs.planes->planes;
-  later_state_ = from;
-  Eigen::Map<Eigen::VectorXd>(later_state_.positions.data(), command.velocities.size()) += way * command.velocities;
+  moveOn(from, command, way);
   pieces_.clear();
   for (const Row& row : rows_) {
     const size_t piece = planes[row.plane].piece;

@@ -44,6 +44,18 @@ class GapOnTheWay {
   size_t ball_;
 };
 
+// Returns how an arm comes to rest from a share of its command whose fastest point on the way brakes at the deceleration.
+StopOnPath stopFrom(const ArmCase& arm, const RobotState& from, double fastest, const BrakingLimits& limits,
+                    double share) {
+  MovingTool tool(arm.tree);
+  StopOnPath stop{limits.reaction_time, fastest / limits.deceleration};
+  for (double way = 0.0; way < stop.way(share) && way < 10.0; way += 0.01 * stop.way(share)) {
+    tool.place(after(from, arm.command.velocities, way), *arm.inputs.tool, arm.command.velocities);
+    stop.braking_time = std::max(stop.braking_time, tool.fastest() / limits.deceleration);
+  }
+  return stop;
+}
+
 bool everyGapLasts(const ArmCase& arm, const RobotState& from, double way, const StopOnPath& stop, double tolerance) {
   const auto& planes = arm.inputs.planes->planes;
   return std::all_of(planes.begin(), planes.end(), [&](const SeparatingPlane& plane) {
@@ -96,18 +108,21 @@ TEST(JointMotionGuardSearchTest, EveryGapLastsUntilTheRobotIsAtRestAndTheScaleIs
     swept.place(arm.joints.state, *arm.inputs.tool, arm.command.velocities);
     MovingTool tool(arm.tree);
     tool.place(expected, *arm.inputs.tool, arm.command.velocities);
-    const double fastest = std::max(swept.fastest(), tool.fastest());
-    const StopOnPath stop{limits.reaction_time, fastest / limits.deceleration};
+    const double at_first = std::max(swept.fastest(), tool.fastest());
+    StopOnPath stop = stopFrom(arm, expected, at_first, limits, scale);
+    stop.braking_time /= 1.01;  // the guard knows the speed on the way as exactly
     const double more = std::min(1.0, 1.1 * scale + 0.01);
+    const StopOnPath longer = stopFrom(arm, expected, at_first, limits, more);
     bool more_is_too_much = scale == 1.0;
     for (const RobotState& state : {arm.joints.state, expected}) {
       EXPECT_TRUE(everyGapLasts(arm, state, stop.way(scale), stop, 1e-9)) << i << ": " << scale;
-      more_is_too_much = more_is_too_much || !everyGapLasts(arm, state, stop.way(more), stop, -1e-4);
+      more_is_too_much = more_is_too_much || !everyGapLasts(arm, state, longer.way(more), longer, -1e-4);
     }
     UncoveredSurfaces uncovered = arm.inputs.planes->uncovered;
     uncovered.distance -= tool.largestDisplacement(swept, *arm.inputs.tool);
-    EXPECT_LE(scale * fastest, allowedSpeed(uncovered, limits) + 1e-9);
-    more_is_too_much = more_is_too_much || more * fastest > allowedSpeed(uncovered, limits);
+    const double allowed = allowedSpeed(uncovered, limits) / limits.deceleration;
+    EXPECT_LE(scale * stop.braking_time, allowed + 1e-9);
+    more_is_too_much = more_is_too_much || more * longer.braking_time > allowed;
     too_small += more_is_too_much ? 0 : 1;
     ++(scale == 1.0 ? whole : limited);
   }
@@ -136,8 +151,8 @@ TEST(JointMotionGuardSearchTest, ARetreatIsPassedOnBitForBitAtAnyGap) {
       arm.command.velocities *= -1.0;
       MovingTool tool(arm.tree);
       tool.place(arm.joints.state, *arm.inputs.tool, arm.command.velocities);
-      const StopOnPath stop{0.01, tool.fastest()};
-      if (!leadsAway(arm, stop.way(1.0))) continue;
+      const StopOnPath stop = stopFrom(arm, arm.joints.state, tool.fastest(), {1.0, 0.01, 0.002, 0.0}, 1.0);
+      if (!leadsAway(arm, 1.05 * stop.way(1.0))) continue;
       EXPECT_EQ(guardOnce(arm).scale, 1.0);
       ++retreats;
     }

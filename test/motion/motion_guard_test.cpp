@@ -59,7 +59,8 @@ TEST(MotionGuardTest, FreeMotionIsPassedOnBitForBit) {
 TEST(MotionGuardTest, SlowsDownBeforeAPlaneAndNamesIt) {
   MotionGuard guard({});
   const GuardedMotion motion = guard.guard(inputsAt(990, 0.011), moving({-0.5, 0.2, 0.0}, 1000), at(1000));
-  const BrakingLimits limits{1.0, 0.02, 0.002, 0.101};  // the period and the age of the planes
+  // The period and the age of the planes, and 0.2 m/s beside.
+  const BrakingLimits limits{1.0, 0.02 + 0.5 * 0.2, 0.002, 0.101};
   EXPECT_NEAR(motion.twist_W.v_W.x(), -stoppingSpeed(0.008, limits), 1e-9);
   EXPECT_NEAR(motion.twist_W.v_W.y(), 0.2, 1e-9);
   ASSERT_TRUE(motion.limiting);

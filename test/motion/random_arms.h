@@ -37,7 +37,10 @@ inline RobotState after(RobotState state, const Eigen::VectorXd& velocities, dou
 /// at a deceleration [m/s^2].
 inline Eigen::VectorXd changed(MovingTool& robot, const RobotState& state, const ToolBalls& tool, double deceleration,
                                const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
-  if (to.norm() >= from.norm()) return to;
+  robot.place(state, tool, from);
+  const double before = robot.fastest();
+  robot.place(state, tool, to);
+  if (robot.fastest() >= before) return to;
   robot.place(state, tool, to - from);
   return from + std::min(1.0, 1e-3 * deceleration / std::max(1e-12, robot.fastest())) * (to - from);
 }
@@ -83,7 +86,7 @@ inline ArmCase randomArm(Random& random, int planes, double least_gap = -0.01, d
   ArmCase arm;
   arm.tree = std::make_shared<const KinematicTree>(randomRobot(random, 7, random.chance(0.3)));
   arm.joints = {randomState(random, *arm.tree, 2.0), received(1000)};
-  arm.command = {velocitiesOf(*arm.tree, random, random.logUniform(0.03, 3.0)), received(1000),
+  arm.command = {velocitiesOf(*arm.tree, random, random.logUniform(0.03, 1.5)), received(1000),
                  std::chrono::milliseconds(10)};
   arm.inputs.tool = std::make_shared<const ToolBalls>(ballsOn(*arm.tree, random));
   PlaneSet set{received(1000), at(1150).stamp, true, 1, {}, {}, arm.joints.state.X_WR, {}, arm.joints.state.positions};

@@ -63,10 +63,16 @@ class JointMotionGuard {
     double closing;       // by the command [m/s]
     double acceleration;  // bound on that of the ball until the robot is at rest [m/s^2]
   };
+  // How the robot stops within a way of the command [s] by the fastest point on it.
+  struct Sample {
+    StopOnPath stop;
+    double way;
+  };
   // For how long a command may go on as a whole, and the row that says so.
   struct Lasting {
     double time;  // [s]
     std::optional<Row> row;
+    bool is_near;  // it lasts hardly longer
   };
 
   void placeExpectedAndSwept(const MotionInputs& inputs, const MeasuredJoints& joints, const JointCommand& command,
@@ -76,10 +82,13 @@ class JointMotionGuard {
   void requireGuarded(const PlaneSet& planes, const JointCommand& command) const;
   void requireAgreement(const MotionInputs& inputs);
   UncoveredSurfaces uncovered(const MotionInputs& inputs) const;
+  void sampleSpeeds(const MotionInputs& inputs, const JointCommand& command, const BrakingLimits& limits);
+  double shareWithin(double way) const;
   Lasting lasting(const MotionInputs& inputs, const RobotState& from, MovingTool& tool, const JointCommand& command,
                   const BrakingLimits& limits, const StopOnPath& stop, double scale);
   void collectRows(const MotionInputs& inputs, const MovingTool& state, const BrakingLimits& limits,
                    const StopOnPath& stop, double way);
+  void moveOn(const RobotState& from, const JointCommand& command, double way);
   void moveRowsOn(const MotionInputs& inputs, const RobotState& from, const JointCommand& command, double way);
   void stopUnlessEveryGapOpens(const MotionInputs& inputs, const JointCommand& command, const BrakingLimits& limits,
                                GuardedMotion& motion);
@@ -95,6 +104,7 @@ class JointMotionGuard {
   MovingTool expected_;
   std::vector<Row> rows_;
   std::vector<size_t> pieces_;  // of the rows
+  std::vector<Sample> stops_;   // from the expected state on
 };
 
 }  // namespace sweep_guard_core
