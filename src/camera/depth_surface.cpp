@@ -84,8 +84,8 @@ void DepthSurface::take(const std::vector<float>& depths, const Eigen::Isometry3
     if (row > 0) findTriangles(row - kRows);
   }
   findTriangles(y_.size() - kRows);
+  forgetGone(reach);
   placeUnseen();
-  forgetGone();
   nearer_before_.swap(nearer_);
   free_.end(self_);
 }
@@ -193,11 +193,20 @@ void DepthSurface::setDepth(size_t pixel, float depth) {
   nearer_[pixel] = std::max(depth - tolerance_.errorAt(depth) * inverse_[pixel], 0.0F);
 }
 
-// From the next image on. Behind it is what was seen there before, or nothing that is known.
-void DepthSurface::forgetGone() {
-  for (const size_t pixel : gone_.find(self_, {nearer_before_, nearer_, remembered_, stride_})) {
+// Behind it is what was seen there before, or nothing that is known.
+void DepthSurface::forgetGone(float reach) {
+  const std::vector<size_t>& gone = gone_.find(self_, {nearer_before_, nearer_, remembered_, stride_});
+  for (const size_t pixel : gone) {
     const bool known = farthest_[pixel] > remembered_[pixel] + 2.0F * tolerance_.errorAt(remembered_[pixel]);
     remembered_[pixel] = known ? farthest_[pixel] : kNothing;
+    setDepth(pixel, remembered_[pixel]);
+    seen_ -= known ? 0 : 1;
+    hidden_ -= known ? 0 : 1;
+  }
+  for (size_t row = 0; row < y_.size() && !gone.empty(); row += kRows) {
+    placeTiles(row);
+    findMotion(row, reach);
+    findTriangles(row);
   }
 }
 

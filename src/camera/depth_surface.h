@@ -105,7 +105,7 @@ class DepthSurface {
   // Those in a row of a tile. Where nothing is seen, that of the place before.
   void placeRow(size_t column, size_t row, const float* before_F, float* places_F) const;
   void placeUnseen();
-  void forgetGone();
+  void forgetGone(float reach);
   bool isSeen(size_t place) const;
   void findPairs(size_t first, std::uint8_t* pairs) const;
   std::uint64_t trianglesAt(size_t column) const;

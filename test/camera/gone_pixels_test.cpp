@@ -40,27 +40,31 @@ TEST_F(GonePixelsTest, WhatTheRobotHidesGoesWithWhatWasJoinedToIt) {
   takeTwo(hand(15, 40));
   takeTwoBehindRobot(hand(15, 40));
   EXPECT_FLOAT_EQ(static_cast<float>(now(26, 18).z()), 0.5F);
-  takeTwoBehindRobot(wall(1.0F));
+  takeBehindRobot(wall(1.0F));
   for (const std::uint32_t column : {23U, 26U, 29U}) {
     EXPECT_FLOAT_EQ(static_cast<float>(now(column, 18).z()), 1.0F) << column;
+    EXPECT_EQ(before(column, 18), now(column, 18)) << column;
   }
+  TriangleMesh mesh_F(grid_);
+  mesh_F.deform(surface_.places_F(), surface_.before_F(), surface_.existing());
+  EXPECT_EQ(trianglesOf(mesh_F).size(), 2U * (kWidth - 1) * (kHeight - 1));
 }
 
 TEST_F(GonePixelsTest, OfWhatGoesInPartTheRestStays) {
   takeTwo(wall(1.0F));
   takeTwo(hand(15, 40));
   takeTwoBehindRobot(hand(15, 40));
-  takeTwoBehindRobot(hand(25, 40));
+  takeBehindRobot(hand(25, 40));
   EXPECT_FLOAT_EQ(static_cast<float>(now(23, 18).z()), 1.0F);
   EXPECT_FLOAT_EQ(static_cast<float>(now(29, 18).z()), 0.5F);
-  takeTwoBehindRobot(wall(1.0F));
+  takeBehindRobot(wall(1.0F));
   EXPECT_FLOAT_EQ(static_cast<float>(now(29, 18).z()), 1.0F);
 }
 
 TEST_F(GonePixelsTest, WhatGoesBesideTheRobotTakesNothingFartherAwayWithIt) {
   takeTwo(wall(1.0F));
   takeTwoBehindRobot(hand(30, 40));
-  takeTwoBehindRobot(wall(1.0F));
+  takeBehindRobot(wall(1.0F));
   EXPECT_EQ(surface_.seen(), size_t{kWidth} * kHeight);
   EXPECT_FLOAT_EQ(static_cast<float>(now(29, 18).z()), 1.0F);
 }
@@ -68,14 +72,14 @@ TEST_F(GonePixelsTest, WhatGoesBesideTheRobotTakesNothingFartherAwayWithIt) {
 TEST_F(GonePixelsTest, WhereNothingIsKnownBehindWhatHasGoneNoSurfaceIsLeft) {
   takeTwo(hand(0, kWidth));
   takeTwoBehindRobot(hand(0, kWidth));
-  takeTwoBehindRobot(wall(1.0F));
+  takeBehindRobot(wall(1.0F));
   EXPECT_EQ(surface_.seen(), size_t{kWidth} * kHeight - 49);
 }
 
 TEST_F(GonePixelsTest, WhatWasBeforeTheDistanceGoesToo) {
   takeTwo(hand(15, 40, 7.0F));
   takeTwoBehindRobot(hand(15, 40, 7.0F));
-  takeTwoBehindRobot(wall(7.0F));
+  takeBehindRobot(wall(7.0F));
   EXPECT_EQ(surface_.seen(), 0U);
 }
 
