@@ -255,41 +255,74 @@ double leastGap(const ArmCase& arm, const RobotState& state) {
   return least;
 }
 
-// Planes and positions are 10 ms old.
+// Returns the least gap of an arm in 2 s. Planes and positions are 10 ms old.
+double leastGapInALoop(ArmCase& arm, const MotionGuardOptions& options) {
+  const auto ms = [](Duration duration) { return static_cast<int>(std::lround(1e3 * toSeconds(duration))); };
+  JointMotionGuard guard(options, arm.tree);
+  LaggingArm robot(arm, ms(options.dead_time), ms(options.time_constant), options.deceleration);
+  robot.step(VectorXd::Zero(arm.command.velocities.size()));
+  VectorXd output;
+  double least = leastGap(arm, robot.state());
+  for (int ms = 0; ms < 2000; ++ms) {
+    if (ms % 10 == 0) {
+      arm.joints = {robot.measured(10), received(ms - 10)};
+      editable(arm).timestamps = received(ms - 10);
+      editable(arm).valid_until = at(ms + 100).stamp;
+      arm.inputs.warning->received = at(ms).steady;
+      arm.command.timestamps = received(ms);
+      output = guard.guard(arm.inputs, arm.joints, arm.command, at(ms)).scale * arm.command.velocities;
+    }
+    robot.step(output);
+    if (ms % 5 == 4) least = std::min(least, leastGap(arm, robot.state()));
+  }
+  return least;
+}
+
 TEST(JointMotionGuardSearchTest, AnArmWithDelaysAndLimitedBrakingDoesNotPassTheStandoff) {
   Random random(97);
   int came = 0;
   for (std::uint64_t i = 0; i < caseCount(40); ++i) {
     ArmCase arm = randomArm(random, 3, 0.003, 0.2);
     for (SeparatingPlane& plane : editable(arm).planes) plane.surface_speed = 0.0;
-    const int dead_time_ms = random.below(50);
-    const int lag_ms = random.below(50);
     MotionGuardOptions options;
-    options.dead_time = milliseconds(dead_time_ms);
-    options.time_constant = milliseconds(lag_ms);
+    options.dead_time = milliseconds(random.below(50));
+    options.time_constant = milliseconds(random.below(50));
     options.deceleration = random.logUniform(0.5, 5.0);
-    JointMotionGuard guard(options, arm.tree);
-    LaggingArm robot(arm, dead_time_ms, lag_ms, options.deceleration);
-    robot.step(VectorXd::Zero(arm.command.velocities.size()));
-    VectorXd output;
-    double least = leastGap(arm, robot.state());
-    for (int ms = 0; ms < 2000; ++ms) {
-      if (ms % 10 == 0) {
-        arm.joints = {robot.measured(10), received(ms - 10)};
-        editable(arm).timestamps = received(ms - 10);
-        editable(arm).valid_until = at(ms + 100).stamp;
-        arm.inputs.warning->received = at(ms).steady;
-        arm.command.timestamps = received(ms);
-        output = guard.guard(arm.inputs, arm.joints, arm.command, at(ms)).scale * arm.command.velocities;
-      }
-      robot.step(output);
-      if (ms % 5 == 4) least = std::min(least, leastGap(arm, robot.state()));
-    }
-    EXPECT_GT(least, options.standoff - 1e-6)
-        << i << ": " << dead_time_ms << " ms, " << lag_ms << " ms, " << options.deceleration << " m/s^2";
+    const double least = leastGapInALoop(arm, options);
+    EXPECT_GT(least, options.standoff - 1e-6) << i << ": " << toSeconds(options.dead_time) << " s, "
+                                              << toSeconds(options.time_constant) << " s, " << options.deceleration;
     came += least < options.standoff + 0.002 ? 1 : 0;
   }
   EXPECT_GT(came, 5);
+}
+
+// A turntable that carries a slide outwards, before a wall: the ball on it is the faster, the farther out it is.
+TEST(JointMotionGuardSearchTest, AnArmThatUnfoldsBrakesByTheSpeedsOnItsWay) {
+  TreeLink table;
+  table.name = "table";
+  table.joint = "table_joint";
+  table.type = JointType::kRevolute;
+  TreeLink slide;
+  slide.name = "slide";
+  slide.joint = "slide_joint";
+  slide.type = JointType::kPrismatic;
+  slide.axis_J = Vector3d::UnitX();
+  slide.parent = 0;
+  slide.variable = 1;
+  for (const double outwards : {0.25, 0.5}) {
+    ArmCase arm;
+    arm.tree = std::make_shared<const KinematicTree>(
+        KinematicTree({JointVariable{"table_joint"}, JointVariable{"slide_joint"}}, {table, slide}));
+    arm.joints = {{Eigen::Isometry3d::Identity(), {0.0, 0.2}}, received(1000)};
+    arm.command = {Eigen::Vector2d(1.0, outwards), received(1000), milliseconds(10)};
+    arm.inputs.tool = std::make_shared<const ToolBalls>(ToolBalls{1, {{{Vector3d::Zero(), 0.0}}}, {"slide"}});
+    PlaneSet planes{received(1000), at(1150).stamp, true, 1, {}, {}, {}, {"table_joint", "slide_joint"}, {0.0, 0.2}};
+    planes.X_WT = Eigen::Isometry3d::Identity();
+    planes.planes.push_back({0, -Vector3d::UnitY(), 0.3 * Vector3d::UnitY(), 0.3, 0.0});
+    arm.inputs.planes = std::make_shared<const PlaneSet>(planes);
+    arm.inputs.warning = MotionInputs::GuardWarning{WarningLevel::kClear, 0, at(1000).steady};
+    EXPECT_GT(leastGapInALoop(arm, {}), 0.0015) << outwards << " m/s";
+  }
 }
 
 }  // namespace
