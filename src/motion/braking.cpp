@@ -16,6 +16,10 @@ bool within(const Eigen::Vector3d& vector, double limit) { return (vector.array(
 
 }  // namespace
 
+Twist atPoint(const Twist& twist_W, const Eigen::Vector3d& to_W) {
+  return {twist_W.v_W + twist_W.w_W.cross(to_W), twist_W.w_W};
+}
+
 double stoppingSpeed(double distance, const BrakingLimits& limits) {
   if (!(distance > 0.0)) return 0.0;
   const double per_distance = limits.reaction_time / distance;

@@ -189,7 +189,7 @@ void JointMotionGuard::limit(const MotionInputs& inputs, const MeasuredJoints& j
       if (!row) return;
       const SeparatingPlane& plane = inputs.planes->planes[row->plane];
       motion.scale = std::min(motion.scale, shareWithin(is_near ? time : longer * time));
-      const double closing = closingOf(plane, tool.balls()[row->ball]);
+      const double closing = std::max(0.0, closingOf(plane, tool.balls()[row->ball]));
       motion.limiting = GuardedMotion::Limiting{row->plane, plane.normal_W, row->first_gap, motion.scale * closing};
       if (is_near) return;
     }

@@ -11,10 +11,6 @@ Twist scaled(const Twist& twist_W, double scale) { return {scale * twist_W.v_W, 
 
 }  // namespace
 
-Twist atPoint(const Twist& twist_W, const Eigen::Vector3d& to_W) {
-  return {twist_W.v_W + twist_W.w_W.cross(to_W), twist_W.w_W};
-}
-
 MotionGuard::MotionGuard(const MotionGuardOptions& options) : options_(options), limiter_(kBalls) {
   requireUsable(options_);
   facing_.reserve(kBalls);

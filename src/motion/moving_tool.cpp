@@ -5,7 +5,6 @@
 
 #include "kinematics/travel.h"
 #include "sweep_guard/common/stamped_pose.h"
-#include "sweep_guard/motion/motion_guard.h"
 
 namespace sweep_guard_core {
 

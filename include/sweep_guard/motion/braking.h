@@ -16,9 +16,13 @@ struct Twist {
 inline bool operator==(const Twist& a, const Twist& b) { return a.v_W == b.v_W && a.w_W == b.w_W; }
 inline bool operator!=(const Twist& a, const Twist& b) { return !(a == b); }
 
+/// Returns the velocity of another point of a rigid body.
+/// @param to_W  the other point, seen from the point of the twist [m]
+Twist atPoint(const Twist& twist_W, const Eigen::Vector3d& to_W);
+
 /// What the robot can do, and how close it may come.
 struct BrakingLimits {
-  double deceleration = 1.0;    ///< that the robot reaches at any point of the tool when it is stopped [m/s^2], > 0
+  double deceleration = 1.0;    ///< of the fastest tool point when the robot is stopped, along its path [m/s^2], > 0
   double reaction_time = 0.05;  ///< command period + age of planes or pose, the older + the robot's own lag [s], > 0
   double standoff = 0.002;      ///< distance from a plane at which the closing speed is 0 [m], >= 0
   double tool_radius = 0.1;     ///< largest distance of a tool point from the origin of the tool frame [m], >= 0

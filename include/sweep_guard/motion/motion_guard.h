@@ -77,8 +77,4 @@ class MotionGuard {
   std::vector<size_t> plane_of_;    // of each facing ball
 };
 
-/// Returns the velocity of another point of a rigid body.
-/// @param to_W  the other point, seen from the point of the twist [m]
-Twist atPoint(const Twist& twist_W, const Eigen::Vector3d& to_W);
-
 }  // namespace sweep_guard_core

@@ -48,7 +48,7 @@ enum class PermissionCause : std::uint8_t {
 const char* textOf(PermissionCause cause);
 
 struct MotionGuardOptions {
-  double deceleration = 1.0;  ///< that the robot reaches at any point of the tool when it is stopped [m/s^2], > 0
+  double deceleration = 1.0;  ///< of the fastest tool point when the robot is stopped, along its path [m/s^2], > 0
   double standoff = 0.002;    ///< distance from a plane at which the closing speed is 0 [m], >= 0
   Duration dead_time{};       ///< until the robot begins to do what was sent, >= 0
   Duration time_constant{};   ///< of the first-order lag with which the robot follows, >= 0

@@ -90,10 +90,10 @@ void readTimes(ParameterReader& read, MotionParameters& parameters) {
 
 void readMotion(ParameterReader& read, MotionParameters& parameters) {
   sweep_guard_core::MotionGuardOptions& options = parameters.options;
-  options.deceleration =
-      read.number("deceleration", options.deceleration, {0.01, 1000.0, "m/s^2"},
-                  "Deceleration of any tool point that the robot reaches when it is stopped; with commands of "
-                  "joints, of the fastest point.");
+  options.deceleration = read.number(
+      "deceleration", options.deceleration, {0.01, 1000.0, "m/s^2"},
+      "Deceleration of the fastest tool point that the robot reaches when it is stopped. It brakes along its "
+      "path.");
   options.standoff = read.number("standoff", options.standoff, {0.0, 1.0, "m"},
                                  "Distance from a surface at which nothing closes on it.");
   options.escape_speed = read.number(
