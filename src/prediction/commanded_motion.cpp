@@ -1,15 +1,11 @@
 #include "prediction/commanded_motion.h"
 
-#include <limits>
-
 namespace sweep_guard_core {
 namespace {
 
 constexpr Duration kLeadTime = std::chrono::milliseconds(100);
 constexpr Duration kDistrust = std::chrono::seconds(1);
-constexpr int kMaxMisled = 3;                    // samples in a row
-constexpr double kHaste = kAveragingTime / 2.0;  // errors are compared over 2 s
-constexpr int kCompared = 6;                     // of kLearnedHorizons: from 0.1 s on
+constexpr int kMaxMisled = 3;  // samples in a row
 
 }  // namespace
 
@@ -61,26 +57,8 @@ void CommandedMotion<Space>::observe(const MotionTracker<Space>& measured, const
   for (size_t i = 0; i < predicted.size(); ++i) predicted[i] = displacementIn(kLearnedHorizons[i]);
   errors_.observe(measured, velocity, predicted);
   misled_ = errors_.misleads(errors) ? misled_ + 1 : 0;
-  compare(measured, errors);
-  const bool worse = isWorse();
-  if (misled_ >= kMaxMisled || (in_use_ && worse)) unused_until_ = newest_.stamp + kDistrust;
-  in_use_ = newest_.stamp >= unused_until_ && !worse;
-}
-
-template <typename Space>
-void CommandedMotion<Space>::compare(const MotionTracker<Space>& measured, const ErrorModel<Space>& errors) {
-  if (measured.step() != MotionTracker<Space>::Step::kContinues) return;
-  const auto& own = errors_.newestErrors();
-  Errors newest;
-  newest << own, (own > 0.0).select(errors.newestErrors(), 0.0);
-  compared_.add(newest, kHaste * toSeconds(measured.period()));
-}
-
-// Relative to the errors without the command, each horizon counts the same: a great gain within one outweighs small losses.
-template <typename Space>
-bool CommandedMotion<Space>::isWorse() const {
-  const Errors mean = compared_.mean() + std::numeric_limits<double>::min();
-  return (mean.col(0) / mean.col(1)).tail(kCompared).mean() > 1.0;
+  if (misled_ >= kMaxMisled) unused_until_ = newest_.stamp + kDistrust;
+  in_use_ = newest_.stamp >= unused_until_;
 }
 
 template <typename Space>

@@ -2,8 +2,8 @@
 
 // Idea: what goes to a robot is known before the robot has carried it out. The displacement is regressed on the velocities
 // of `direct` and on two more: how far the command is ahead of the measured motion, and the velocity of the command. The
-// weights of each horizon learn dead time and lag. Invariant: the command is in use only while it comes, while the motion
-// within 0.1 s is what it predicted, and while it has lately not predicted worse than the measured motion alone.
+// weights of each horizon learn dead time and lag. Invariant: the command is in use only while it comes, and while the
+// motion within 0.1 s is what it predicted.
 
 #include <boost/circular_buffer.hpp>
 #include <memory>
@@ -11,7 +11,6 @@
 
 #include "prediction/displacement_learner.h"
 #include "prediction/error_model.h"
-#include "prediction/exponential_moving_average.h"
 #include "prediction/extrapolator.h"
 #include "prediction/motion_tracker.h"
 
@@ -44,7 +43,7 @@ class CommandedMotion {
 
   /// Returns whether the command predicts the motion from the newest sample on: it comes, and within the last second, no three
   /// samples in a row were farther than three standard deviations from what it had predicted, and than
-  /// from what is predicted without it; nor were its errors of the last seconds larger while it was in use.
+  /// from what is predicted without it.
   bool inUse() const { return in_use_; }
 
   /// Returns the displacement after the newest sample, within the limits of the space.
@@ -62,12 +61,7 @@ class CommandedMotion {
     Vector ahead;
   };
 
-  // Squared errors within kLearnedHorizons, from the command and without it.
-  using Errors = Eigen::Array<double, kLearnedHorizons.size(), 2>;
-
   void begin(typename MotionTracker<Space>::Step step);
-  void compare(const MotionTracker<Space>& measured, const ErrorModel<Space>& errors);
-  bool isWorse() const;
   Vector lead(const MotionTracker<Space>& measured);
   Vector leadOfVelocities(const MotionTracker<Space>& measured);
 
@@ -77,9 +71,8 @@ class CommandedMotion {
   boost::circular_buffer<Lead> leads_{64};                   // of the last 0.1 s
   DisplacementLearner<Space, kCommandRegressors> learner_;
   ErrorModel<Space> errors_;
-  ExponentialMovingAverage<Errors> compared_{Errors::Zero()};  // of the last seconds
-  Sample newest_;                                              // measured
-  int misled_ = 0;                                             // samples in a row
+  Sample newest_;   // measured
+  int misled_ = 0;  // samples in a row
   Time unused_until_;
   bool in_use_ = false;
 };

@@ -67,7 +67,7 @@ void ErrorModel<Space>::observe(const MotionTracker<Space>& tracker, const Vecto
                                 const PredictedDisplacements<Space>& predicted) {
   using Step = typename MotionTracker<Space>::Step;
   const double period = toSeconds(tracker.period());
-  if (tracker.step() == Step::kBegins) interrupt();
+  if (tracker.step() == Step::kBegins) targets_.clear();
   if (tracker.step() == Step::kContinues) speeds_.add(speedSquares(velocity), period);
   activity_ = speedSquares(velocity) + speeds_.mean();
   direction_ = velocity.template head<Space::kAxes>().stableNormalized();
@@ -75,9 +75,7 @@ void ErrorModel<Space>::observe(const MotionTracker<Space>& tracker, const Vecto
   if (tracker.step() == Step::kCorrects) targets_.correctNewest(tracker.newest(), newest);
   if (tracker.step() != Step::kContinues) return;
   targets_.add(tracker.newest(), newest, [&](const Features& features, size_t i, const Vector& moved) {
-    const Vector missed = errorOf<Space>(features.predicted[i], moved);
-    const Squares error = squares(missed, features.direction);
-    newest_errors_[static_cast<Eigen::Index>(i)] = missed.template head<Space::kAxes>().squaredNorm();
+    const Squares error = squares(errorOf<Space>(features.predicted[i], moved), features.direction);
     if (i == kJudged) {
       newest_ = error;
       limit_ = 9.0 * (kLearnedHorizons[i] * share(i)).square() * features.activity;
@@ -93,7 +91,6 @@ void ErrorModel<Space>::observe(const MotionTracker<Space>& tracker, const Vecto
 template <typename Space>
 void ErrorModel<Space>::interrupt() {
   targets_.clear();
-  newest_errors_.setZero();
   newest_.setZero();
 }
 

@@ -21,8 +21,6 @@ class ErrorModel {
   using Vector = typename Space::Vector;
   using Covariance = Eigen::Matrix<double, Space::kSize, Space::kSize>;
 
-  using SquaredErrors = Eigen::Array<double, kLearnedHorizons.size(), 1>;
-
   explicit ErrorModel(const Space& space);
 
   /// Adds the newest pose of a tracker and what is predicted there.
@@ -35,10 +33,6 @@ class ErrorModel {
 
   /// Returns whether the newest error within 0.1 s exceeds three standard deviations, and that of another model.
   bool misleads(const ErrorModel& other) const { return (newest_ > limit_ && newest_ > other.newest_).any(); }
-
-  /// Returns the squared errors that the newest sample told within each of kLearnedHorizons, of a tool in position alone
-  /// [m^2, rad^2]; 0: none is known.
-  const SquaredErrors& newestErrors() const { return newest_errors_; }
 
   /// Returns the covariance of the error of what is predicted. Of a pose: translation [m], then rotation vector [rad],
   /// both along the axes of W.
@@ -59,7 +53,6 @@ class ErrorModel {
   Squares share(size_t horizon) const;
 
   DelayedTargets<Space, Features> targets_;
-  SquaredErrors newest_errors_ = SquaredErrors::Zero();
   Squares newest_ = Squares::Zero();  // error within 0.1 s
   Squares limit_ = Squares::Zero();   // nine variances of it
   // For each of kLearnedHorizons: the errors, and the squared speed at the time of the errors.

@@ -149,29 +149,6 @@ TEST(CommandedMotionTest, ARobotThatDoesNotDoWhatWasSentEndsItAtOnce) {
   EXPECT_FALSE(predictor.usesCommand());
 }
 
-// As of another tip, or of a robot that gives way under its weight: it moves for 2 s and rests for 2 s.
-TEST(CommandedMotionTest, ADistanceThatStaysMakesNoPredictionWorse) {
-  const std::vector<Duration> ahead = {fromSeconds(0.1), fromSeconds(0.2), fromSeconds(0.5), fromSeconds(1.0)};
-  const auto strokeAt = [](double t) { return std::fmod(t, 4.0) < 2.0 ? 0.05 * (1.0 - std::cos(M_PI * t)) : 0.0; };
-  std::vector<double> told(ahead.size());
-  std::vector<double> measured(ahead.size());
-  for (std::vector<double>* const sums : {&told, &measured}) {
-    PosePredictor predictor(optionsOf("direct"));
-    PredictedPath path;
-    for (int i = 0; i < 4000; ++i) {
-      const double t = i * kPosePeriod;
-      if (sums == &told) predictor.command({at(t), poseOf(strokeAt(t) + 0.02)});
-      predictor.observe({at(t), poseOf(strokeAt(t - 0.1))});
-      predictor.predict(ahead, path);
-      for (size_t k = 0; k < ahead.size() && t >= 10.0; ++k) {
-        const Eigen::Vector3d then = poseOf(strokeAt(t - 0.1 + toSeconds(ahead[k]))).translation();
-        (*sums)[k] += (path[k].X_WT.translation() - then).norm();
-      }
-    }
-  }
-  for (size_t k = 0; k < ahead.size(); ++k) EXPECT_LT(told[k], 1.02 * measured[k]) << toSeconds(ahead[k]);
-}
-
 TEST(CommandedMotionTest, NoOtherPredictorHearsOfIt) {
   PosePredictor predictor(optionsOf("constant_velocity"));
   for (int i = 0; i < 300; ++i) {
