@@ -23,7 +23,8 @@ constexpr double kLeastSample = 0.02;     // between two of them, of the way
 constexpr double kMostSample = 0.25;
 constexpr double kSampledAngle = 0.3;  // by all joints together [rad]
 
-void requireUsableCommand(const JointCommand& command, const std::vector<double>& positions, size_t variables) {
+void requireUsableCommand(const JointCommand& command, const RobotState& state, size_t variables) {
+  const std::vector<double>& positions = state.positions;
   const auto& velocities = command.velocities;
   if (static_cast<size_t>(velocities.size()) != variables || !(velocities.array().abs() <= kMaxJointSpeed).all())
     throw InvalidInput("commanded joint velocities refused: each joint needs one that is finite and within 1e6");
@@ -31,6 +32,8 @@ void requireUsableCommand(const JointCommand& command, const std::vector<double>
   const bool complete = positions.empty() || positions.size() == variables;
   if (!complete || !std::all_of(positions.begin(), positions.end(), finite))
     throw InvalidInput("joint positions refused: each joint needs one that is finite");
+  if (!positions.empty() && !state.X_WR.matrix().allFinite())
+    throw InvalidInput("pose of the robot's root refused: it is not finite");
 }
 
 const double* sweptPosition(const PlaneSet& planes, const JointVariable& joint) {
@@ -93,7 +96,7 @@ JointMotionGuard::JointMotionGuard(const MotionGuardOptions& options, std::share
 
 GuardedMotion JointMotionGuard::guard(const MotionInputs& inputs, const MeasuredJoints& joints,
                                       const JointCommand& command, const Instant& now) {
-  requireUsableCommand(command, joints.state.positions, tree_->variables().size());
+  requireUsableCommand(command, joints.state, tree_->variables().size());
   GuardedMotion motion;
   motion.decision = permission(inputs, joints, command.timestamps, now);
   if (inputs.planes) motion.planes_age = age(inputs.planes->timestamps, now);

@@ -252,6 +252,9 @@ TEST(JointMotionGuardTest, WhatIsNotFiniteOrOfOtherJointsIsRefused) {
   arm.joints.state.positions = {0.0};
   refused(arm, "joint positions");
   arm = usual;
+  arm.joints.state.X_WR.translation().x() = nan;
+  refused(arm, "robot's root");
+  arm = usual;
   editable(arm).planes[0].point_W.x() = nan;
   refused(arm, "separating plane");
   arm = usual;
