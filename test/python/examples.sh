@@ -1,6 +1,6 @@
 #!/bin/bash
 # examples.sh SCRIPTS devel DEVEL_SPACE | examples.sh SCRIPTS install BUILD PREFIX: the package in this devel space, or as it is
-# installed from this build, runs the examples of doc/python.md without anything of another space.
+# installed from this build, runs the examples of doc/connect.md without anything of another space.
 set -euo pipefail
 # shellcheck source-path=SCRIPTDIR/../../scripts
 . "$1/processes.bash"
