@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -244,24 +245,48 @@ std::string argumentLine(const tinyxml2::XMLElement& argument) {
          (meaning == nullptr ? "?" : meaning) + " |";
 }
 
-std::vector<std::string> argumentLines(const std::filesystem::path& file) {
+using Meanings = std::map<std::string, std::string>;
+
+// Returns the meaning of each argument that several launch files have.
+Meanings sharedArguments(const std::string& document) {
+  Meanings shared;
+  for (const Row& row : table(document, "| argument of several files | default | meaning |"))
+    shared[trimmed(row.at(1))] = trimmed(row.at(3));
+  return shared;
+}
+
+// Returns the rows of one launch file. Arguments that mean what `shared` says are only named; those that are seldom needed are
+// left out.
+std::vector<std::string> argumentLines(const std::filesystem::path& file, const Meanings& shared) {
   std::vector<std::string> rows;
+  std::vector<std::string> as_shared;
   tinyxml2::XMLDocument launch;
   EXPECT_EQ(launch.LoadFile(file.c_str()), tinyxml2::XML_SUCCESS) << file;
   for (const auto* argument = launch.RootElement()->FirstChildElement("arg"); argument != nullptr;
        argument = argument->NextSiblingElement("arg")) {
-    rows.push_back(argumentLine(*argument));
+    const char* const doc = argument->Attribute("doc");
+    const std::string meaning = doc == nullptr ? "" : doc;
+    const std::string name = argument->Attribute("name");
+    if (meaning.rfind("(seldom) ", 0) == 0) continue;
+    const auto found = shared.find(std::regex_replace(name, std::regex("^(left|right)_"), ""));
+    if (found != shared.end() && found->second == meaning) {
+      as_shared.push_back("`" + name + "`");
+    } else {
+      rows.push_back(argumentLine(*argument));
+    }
   }
+  if (!as_shared.empty()) rows.push_back("| " + joined(as_shared, ", ") + " | | as above |");
   return rows;
 }
 
 TEST(DocumentsTest, ListTheArgumentsOfEachLaunchFile) {
   const std::filesystem::path document = kRoot / "doc" / "launch.md";
   std::vector<std::string> chapters = split(contents(document), "\n## ");
+  const Meanings shared = sharedArguments(chapters.front());
   Names listed;
   for (size_t i = 1; i < chapters.size(); ++i) {
     const std::string file = lines(chapters[i]).front();
-    chapters[i] = withRows(chapters[i], "| argument | default | meaning |", argumentLines(kRoot / "launch" / file));
+    chapters[i] = withRows(chapters[i], "| argument | default | meaning |", argumentLines(kRoot / "launch" / file, shared));
     listed.insert(file);
   }
   expectContents(document, joined(chapters, "\n## "));
