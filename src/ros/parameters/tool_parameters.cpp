@@ -38,8 +38,8 @@ ToolModelOptions readModelOptions(ParameterReader& read, const std::string& fram
                                     "urdf only: how often a mesh may be cut in two; 0: one convex hull. More follows "
                                     "hollows more closely and costs time.");
   options.joints = read.numbers("tool/joints",
-                                "urdf only: positions [rad or m] of fixed joints, by name. Others are as close to 0 as "
-                                "their limits allow, or where `joint_states` says.");
+                                "urdf only: where joints within the tool stay [rad or m], by name. Others are as close "
+                                "to 0 as their limits allow, or where `joint_states` says.");
   options.mesh_roots = read.texts(
       "tool/mesh_roots", "urdf only: absolute folders of file:// meshes, besides packages on ROS_PACKAGE_PATH.");
   return options;
