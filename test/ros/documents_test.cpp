@@ -158,8 +158,8 @@ Names topicsListed(const std::string& head) {
 }
 
 TEST(DocumentsTest, ListEachTopicAndItsType) {
-  EXPECT_EQ(topicsListed("| in | type | meaning | try |"), topicsOfTheGuard(kSubscribed));
-  EXPECT_EQ(topicsListed("| out | type | when | try |"), topicsOfTheGuard(kPublished));
+  EXPECT_EQ(topicsListed("| in | type | meaning |"), topicsOfTheGuard(kSubscribed));
+  EXPECT_EQ(topicsListed("| out | type | when |"), topicsOfTheGuard(kPublished));
 }
 
 Names recordedNames(const BlackBoxParameters& parameters) {
@@ -194,7 +194,9 @@ TEST(DocumentsTest, ListEachService) {
 
 TEST(DocumentsTest, ListEachMessage) {
   Names listed;
-  for (const Row& row : table(contents(kInterface), "| message | carries |")) listed.insert(trimmed(row.at(1)));
+  for (const Row& row : table(contents(kInterface), "| message | carries |")) {
+    for (const std::string& name : codes(row.at(1))) listed.insert(name);
+  }
   Names there;
   for (const char* const folder : {"msg", "srv"}) {
     for (const auto& file : std::filesystem::directory_iterator(kRoot / folder)) there.insert(file.path().stem());
@@ -204,7 +206,7 @@ TEST(DocumentsTest, ListEachMessage) {
 
 TEST(DocumentsTest, ListEachParameter) {
   const auto described = loadParameters(ros::NodeHandle("/nothing_is_set")).described;
-  const std::string head = "| key | default | type, unit, range | while running | effect |";
+  const std::string head = "| parameter | default | type, unit, range | effect |";
   expectContents(kInterface, withRows(contents(kInterface), head, parameterRows(described)));
   expectContents(kRoot / "config" / "sweep_guard.yaml", configurationFile(described));
 }
@@ -212,7 +214,7 @@ TEST(DocumentsTest, ListEachParameter) {
 TEST(DocumentsTest, ListEachParameterOfMotionGuard) {
   const auto described = loadMotionParameters(ros::NodeHandle("/nothing_is_set")).described;
   const std::string head = "| key | default | type, unit, range | effect |";
-  expectContents(kInterface, withRows(contents(kInterface), head, fixedParameterRows(described)));
+  expectContents(kInterface, withRows(contents(kInterface), head, parameterRows(described)));
   expectContents(kRoot / "config" / "motion_guard.yaml", motionConfigurationFile(described));
 }
 
@@ -220,7 +222,7 @@ TEST(DocumentsTest, ListEachParameterOfTheBlackBox) {
   const auto described = loadBlackBoxParameters(ros::NodeHandle("/nothing_is_set")).described;
   const std::string head = "| parameter | default | type, unit, range | effect |";
   const std::filesystem::path document = kRoot / "doc" / "black_box.md";
-  expectContents(document, withRows(contents(document), head, fixedParameterRows(described)));
+  expectContents(document, withRows(contents(document), head, parameterRows(described)));
   expectContents(kRoot / "config" / "black_box.yaml", blackBoxConfigurationFile(described));
 }
 
@@ -228,7 +230,7 @@ TEST(DocumentsTest, ListEachParameterOfHaptics) {
   const auto described = loadHapticsParameters(ros::NodeHandle("/nothing_is_set")).described;
   const std::string head = "| parameter | default | type, unit, range | effect |";
   const std::filesystem::path document = kRoot / "doc" / "haptics.md";
-  expectContents(document, withRows(contents(document), head, fixedParameterRows(described)));
+  expectContents(document, withRows(contents(document), head, parameterRows(described)));
   expectContents(kRoot / "config" / "haptics.yaml", hapticsConfigurationFile(described));
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <iterator>
+#include <regex>
 #include <sstream>
 
 #include "ros/parameters/parameters.h"
@@ -64,8 +65,19 @@ std::string fallbackOf(const ParameterInfo& info) {
   return text.empty() ? "''" : text;
 }
 
-std::string begin(const ParameterInfo& info) {
-  return "| `" + info.key + "` | `" + fallbackOf(info) + "` | " + info.wanted + " | ";
+// The default tells that a text, a list or a group may be empty.
+std::string typeOf(const ParameterInfo& info) {
+  const std::regex left_out("a number from |^(one of|an?) |, not empty|, or (empty|\\[\\]|\\{\\})");
+  return std::regex_replace(info.wanted, left_out, "");
+}
+
+std::string keyOf(const ParameterInfo& info) {
+  const std::string key = "`" + info.key + "`";
+  return info.live ? "**" + key + "**" : key;
+}
+
+std::string cellsOf(const ParameterInfo& info) {
+  return " | `" + fallbackOf(info) + "` | " + typeOf(info) + " | " + info.effect + " |";
 }
 
 std::string entries(const std::vector<ParameterInfo>& infos) {
@@ -90,15 +102,15 @@ std::string entries(const std::vector<ParameterInfo>& infos) {
 
 std::vector<std::string> parameterRows(const std::vector<ParameterInfo>& infos) {
   std::vector<std::string> rows;
+  std::string keys;
+  std::string cells;
   for (const ParameterInfo& info : grouped(infos)) {
-    rows.push_back(begin(info) + (info.live ? "yes" : "no") + " | " + info.effect + " |");
+    const bool shares_row = !rows.empty() && cellsOf(info) == cells;
+    if (shares_row) rows.pop_back();
+    keys = (shares_row ? keys + ", " : "") + keyOf(info);
+    cells = cellsOf(info);
+    rows.push_back("| " + keys + cells);
   }
-  return rows;
-}
-
-std::vector<std::string> fixedParameterRows(const std::vector<ParameterInfo>& infos) {
-  std::vector<std::string> rows;
-  for (const ParameterInfo& info : grouped(infos)) rows.push_back(begin(info) + info.effect + " |");
   return rows;
 }
 

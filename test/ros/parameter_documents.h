@@ -7,12 +7,9 @@
 
 namespace sweep_guard_ros {
 
-/// Returns the rows of doc/interface.md's table of parameters: key, default, type with unit and range, whether it
-/// changes while the guard runs, effect. A parameter without an effect is left out.
+/// Returns the rows of a table of parameters: key, bold if it may change while the node runs, default, type with unit and
+/// range, effect. Neighbors that differ by their keys alone share a row. A parameter without an effect is left out.
 std::vector<std::string> parameterRows(const std::vector<ParameterInfo>& infos);
-
-/// Returns the same rows without whether they change, for a node whose parameters never do.
-std::vector<std::string> fixedParameterRows(const std::vector<ParameterInfo>& infos);
 
 /// Returns the text of config/sweep_guard.yaml.
 std::string configurationFile(const std::vector<ParameterInfo>& infos);

@@ -28,10 +28,9 @@ std::filesystem::path writableFolder(const std::string& instead) {
 }
 
 std::filesystem::path readFolder(ParameterReader& read, const ros::NodeHandle& private_node) {
-  const std::filesystem::path folder =
-      read.path("folder",
-                "Folder of the recordings, for this black box alone. Empty: that with the name of the node in "
-                "$ROS_HOME/sweep_guard or ~/.ros/sweep_guard.");
+  const std::filesystem::path folder = read.path("folder",
+                                                 "Folder of the recordings, for this node alone. Empty: the one with "
+                                                 "its name in $ROS_HOME/sweep_guard or ~/.ros/sweep_guard.");
   if (!folder.empty() && !folder.is_absolute()) {
     throw sweep_guard_core::InvalidInput("parameter folder is " + folder.string() + ", but must be an absolute path");
   }
@@ -42,8 +41,8 @@ std::filesystem::path readFolder(ParameterReader& read, const ros::NodeHandle& p
 void readTrigger(ParameterReader& read, sweep_guard_core::RecordingTrigger::Options& trigger) {
   trigger.on_contact = read.flag("on_contact", trigger.on_contact, "Records when the level becomes CONTACT.");
   trigger.on_reflex = read.flag("on_reflex", trigger.on_reflex, "Records when the level becomes REFLEX.");
-  trigger.after = seconds(read, "after", trigger.after, 0.0, 60.0,
-                          "Time from an event to its recording, so that what followed is in it; at most window.");
+  trigger.after =
+      seconds(read, "after", trigger.after, 0.0, 60.0, "Time from an event to its recording; at most window.");
 }
 
 std::size_t mebibytes(ParameterReader& read, const std::string& key, int fallback, int lowest,
@@ -54,8 +53,7 @@ std::size_t mebibytes(ParameterReader& read, const std::string& key, int fallbac
 void readSizes(ParameterReader& read, BlackBoxParameters& parameters) {
   parameters.memory =
       mebibytes(read, "memory", 1024, 2,
-                "[MiB] All messages that are kept or being written. Where `window` seconds take more than half of it, "
-                "fewer seconds are kept.");
+                "[MiB] All messages in memory. Where `window` would take more than half, less time is kept.");
   parameters.quota =
       mebibytes(read, "quota", 4096, 1, "[MiB] All recordings in the folder. The oldest are deleted for a new one.");
   parameters.min_free =
@@ -67,22 +65,20 @@ void readSizes(ParameterReader& read, BlackBoxParameters& parameters) {
 BlackBoxParameters loadBlackBoxParameters(const ros::NodeHandle& private_node) {
   ParameterReader read(private_node);
   BlackBoxParameters parameters;
-  parameters.guard = read.node("guard", "sweep_guard",
-                               "Name of the guard's node, whose outputs are recorded. Without a slash at its front: in "
-                               "the namespace of this node.");
+  parameters.guard =
+      read.node("guard", "sweep_guard", "Node of the guard to record, relative to the namespace of this node.");
   parameters.folder = readFolder(read, private_node);
   parameters.window = seconds(read, "window", std::chrono::seconds(30), 1.0, 600.0,
-                              "Time before a recording is written that it contains.");
+                              "Time that a recording covers before it is written.");
   readTrigger(read, parameters.trigger);
   if (parameters.trigger.after > parameters.window) {
     throw sweep_guard_core::InvalidInput("parameter after must be at most window");
   }
   readSizes(read, parameters);
-  parameters.proximity = read.flag("proximity", false,
-                                   "Records ~proximity, too. The guard then computes it at every pose, as for "
-                                   "motion_guard.");
+  parameters.proximity =
+      read.flag("proximity", false, "Records ~proximity, too, which the guard then computes at every pose.");
   parameters.interaction =
-      read.flag("interaction", false, "Records ~interaction, too. The guard then computes it at every pose.");
+      read.flag("interaction", false, "Records ~interaction, too, which the guard then computes at every pose.");
   read.number("diagnostic_period", 1.0, {0.0, sweep_guard_core::kInfinity});  // set by diagnostic_updater
   parameters.settings = read.settings();
   parameters.described = read.described();

@@ -6,24 +6,21 @@ namespace sweep_guard_ros {
 
 PoseSource readPoseSource(ParameterReader& read) {
   PoseSource tool;
-  tool.fixed_frame = read.name("fixed_frame", "world", "tf frame that the planes are in: as that of the guard.");
-  const std::string source =
-      read.choice("tool_source", "topic", {"topic", "tf"},
-                  "topic: poses of the tool arrive on `tool_pose`. tf: the tool is the frame tool_frame in tf.");
+  tool.fixed_frame = read.name("fixed_frame", "world", "tf frame of the planes: the guard's.");
+  const std::string source = read.choice("tool_source", "topic", {"topic", "tf"},
+                                         "topic: poses arrive on `tool_pose`. tf: the tool is the frame tool_frame.");
   tool.source = source == "tf" ? ToolSource::kTf : ToolSource::kTopic;
-  tool.frame = read.name("tool_frame", "tool", "tf frame of the tool: as that of the guard.");
+  tool.frame = read.name("tool_frame", "tool", "tf frame of the tool: the guard's.");
   return tool;
 }
 
 JointSource readJointSource(ParameterReader& read, const std::string& tool_frame, bool needed) {
-  const std::string description = read.name("tool/robot_description", "robot_description",
-                                            "Joints only: name of the parameter that holds the URDF, searched from the "
-                                            "node's namespace upwards.");
+  const std::string description =
+      read.name("tool/robot_description", "robot_description",
+                "Joints only: parameter with the URDF, searched from the node's namespace upwards.");
   read.ignore(description);
-  const auto renamed =
-      read.textsByName("tool/joint_names",
-                       "Joints only: names of joints in the robot description, by their names in messages, where these "
-                       "differ: as those of the guard.");
+  const auto renamed = read.textsByName(
+      "tool/joint_names", "Joints only: names in the URDF by names in messages, where they differ: the guard's.");
   if (!needed) return {};
   const std::string urdf = read.searchText(description);
   if (urdf.empty()) {
@@ -37,9 +34,7 @@ JointSource readJointSource(ParameterReader& read, const std::string& tool_frame
 }
 
 std::string readGuard(ParameterReader& read) {
-  return read.node("guard", "sweep_guard",
-                   "Name of the guard's node, whose proximity, tool_balls and warning are listened to. Without a slash "
-                   "at its front: in the namespace of this node.");
+  return read.node("guard", "sweep_guard", "Node of the guard to listen to, relative to the namespace of this node.");
 }
 
 sweep_guard_core::Duration readSeconds(ParameterReader& read, const std::string& key,

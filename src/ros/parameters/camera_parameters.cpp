@@ -94,31 +94,23 @@ CameraParameters cameraOf(GroupReader& group) {
 std::vector<CameraParameters> readCameras(ParameterReader& read) {
   std::vector<CameraParameters> cameras;
   std::set<std::string> ids;
-  read.groups(
-      "cameras",
-      "a list of groups {id: TEXT, depth: TEXT, range: [NUMBER, NUMBER], margin: [NUMBER, NUMBER], timeout: "
-      "NUMBER, surface_speed: NUMBER, self_padding: NUMBER, remember: NUMBER}, of which only id and depth are needed, "
-      "or []",
-      "Depth cameras: what each sees is a workpiece by its id (letters, digits, _), and must be there. depth: topic of "
-      "images, sensor_msgs/Image, or of compressedDepth (png) if it ends so; camera_info is expected beside it. range "
-      "[m]: depths that count. margin [m, 1/m]: a surface at depth z counts as nearer to the camera by the first "
-      "plus the second times z^2: the error of the camera. timeout [s]: an older image makes the warning UNKNOWN. "
-      "surface_speed [m/s]: what moves no faster along a ray of the camera is swept on its way. self_padding [m]: "
-      "what is as near to the tool is the tool itself. remember [s]: what was free when the robot came before it "
-      "counts as free for so long.",
-      [&](XmlRpcValue& group) {
-        GroupReader reader(group);
-        cameras.push_back(cameraOf(reader));
-        if (!ids.insert(cameras.back().id).second) GroupReader::refuse("with each id once");
-        return reader.shownAll();
-      });
+  read.groups("cameras", "a list of groups {id: TEXT, depth: TEXT} with further numbers, or []",
+              "Depth cameras, each a workpiece that must be there: id (letters, digits, _), depth (topic of images) "
+              "and, as doc/cameras.md says, range [m, m], margin [m, 1/m], timeout [s], surface_speed [m/s], "
+              "self_padding [m], remember [s].",
+              [&](XmlRpcValue& group) {
+                GroupReader reader(group);
+                cameras.push_back(cameraOf(reader));
+                if (!ids.insert(cameras.back().id).second) GroupReader::refuse("with each id once");
+                return reader.shownAll();
+              });
   return cameras;
 }
 
 double readMinSeen(ParameterReader& read, double fallback) {
-  return read.live().number("min_seen", fallback, {0.001, 1.0},
-                            "With cameras: the warning is UNKNOWN where they see less than this share of what the tool "
-                            "takes up on its predicted path to be free.");
+  return read.live().number(
+      "min_seen", fallback, {0.001, 1.0},
+      "With cameras: UNKNOWN where they see less than this share of the predicted path to be free.");
 }
 
 }  // namespace sweep_guard_ros

@@ -35,19 +35,17 @@ constexpr double kMaxStiffness = 1e12;      // [N/m^3]
 sweep_guard_core::PredictorOptions readPredictor(ParameterReader& read) {
   const std::vector<std::string> axes = {"x", "y", "z", "rx", "ry", "rz"};
   sweep_guard_core::PredictorOptions options;
-  options.predictor = read.live().choice(
-      "prediction/predictor", options.predictor, sweep_guard_core::predictorNames(),
-      "direct: learns the displacement within each horizon from the operator's velocities. polynomial: "
-      "fits one polynomial per axis. constant_velocity: continues at the newest velocity. "
-      "hold: the tool stays where it is.");
-  const std::vector<int> degree = read.live().integers(
-      "prediction/degree", {options.degree.begin(), options.degree.end()}, 0, 5,
-      "polynomial only: degree along x y z of the fixed frame, then about x y z of the tool. Higher "
-      "degrees follow curves and overshoot. Of joints that move: the largest.");
+  options.predictor =
+      read.live().choice("prediction/predictor", options.predictor, sweep_guard_core::predictorNames(),
+                         "direct: learns the displacement within each horizon from the operator's velocities. "
+                         "polynomial: one per axis. constant_velocity: the newest velocity. hold: no motion.");
+  const std::vector<int> degree =
+      read.live().integers("prediction/degree", {options.degree.begin(), options.degree.end()}, 0, 5,
+                           "polynomial only: degree along x y z of the fixed frame, then about x y z of the tool; of "
+                           "joints, the largest. Higher follows curves and overshoots.");
   std::copy(degree.begin(), degree.end(), options.degree.begin());
-  for (const std::string& axis :
-       read.live().selection("prediction/constrained", axes,
-                             "Axes that the operator cannot move: they are predicted to stay. Not of joints.")) {
+  for (const std::string& axis : read.live().selection(
+           "prediction/constrained", axes, "Axes that the operator cannot move: predicted to stay. Not of joints.")) {
     options.constrained[static_cast<size_t>(std::find(axes.begin(), axes.end(), axis) - axes.begin())] = true;
   }
   options.forgetting_factor =
@@ -55,15 +53,13 @@ sweep_guard_core::PredictorOptions readPredictor(ParameterReader& read) {
                          "Weight of a sample relative to the next one. Smaller follows turns sooner, "
                          "larger filters more noise.");
   options.window = toDuration(read.live().number("prediction/window", sweep_guard_core::toSeconds(options.window),
-                                                 {0.02, 10.0, "s"}, "Polynomials ignore samples that are older."));
-  options.max_speed =
-      read.live().number("limits/max_speed", options.max_speed, {0.001, 1000.0, "m/s"},
-                         "No prediction moves the tip faster, or a joint that slides. A faster pose is a jump (reason "
-                         "JUMP): the motion is learned again.");
+                                                 {0.02, 10.0, "s"}, "Polynomials ignore older samples."));
+  options.max_speed = read.live().number(
+      "limits/max_speed", options.max_speed, {0.001, 1000.0, "m/s"},
+      "Largest predicted speed of the tip or a sliding joint. A faster pose is a JUMP: the motion is learned again.");
   options.max_turn_rate =
       read.live().number("limits/max_turn_rate", options.max_turn_rate, {0.001, 1000.0, "rad/s"},
-                         "No prediction turns faster, of the tool or of a joint. A pose that does is a jump (reason "
-                         "JUMP): the motion is learned again.");
+                         "Largest predicted turn rate of the tool or a joint. A pose that turns faster is a JUMP.");
   return options;
 }
 
@@ -71,23 +67,19 @@ sweep_guard_core::InteractionOptions readInteraction(ParameterReader& read) {
   sweep_guard_core::InteractionOptions options;
   sweep_guard_core::ForceLaw& law = options.law;
   law.stiffness = read.live().number("interaction/stiffness", law.stiffness, {0.0, kMaxStiffness, "N/m^3"},
-                                     "~interaction: force per volume that tool and workpiece have in common.");
+                                     "~interaction: force per volume that tool and workpiece share.");
   for (const auto& [id, stiffness] :
-       read.numbers("interaction/stiffness_of",
-                    "~interaction: the stiffness [N/m^3] of some workpieces by their id, in place of "
-                    "interaction/stiffness; 0 to 1e12.",
+       read.numbers("interaction/stiffness_of", "~interaction: stiffness [N/m^3] by workpiece, 0 to 1e12.",
                     ParameterReader::Range{0.0, kMaxStiffness, "N/m^3"})) {
     options.stiffness_of[id] = stiffness;
     options.stiffness_of.emplace("/" + id, stiffness);  // YAML's key of an id with a slash at its front has none
   }
-  law.damping =
-      read.live().number("interaction/damping", law.damping, {0.0, 1000.0, "s/m"},
-                         "~interaction: by which share the force grows per speed at which the tool closes on the "
-                         "workpiece. As much is taken from it on the way out; the force never pulls.");
-  law.least_area =
-      read.live().number("interaction/min_area", law.least_area, {1e-12, 1.0, "m^2"},
-                         "~interaction: where the integral of the surface's normal inside the tool is less, the "
-                         "force is less by the same share. It keeps the force continuous.");
+  law.damping = read.live().number(
+      "interaction/damping", law.damping, {0.0, 1000.0, "s/m"},
+      "~interaction: share by which the force grows per closing speed, and shrinks on the way out. It never pulls.");
+  law.least_area = read.live().number("interaction/min_area", law.least_area, {1e-12, 1.0, "m^2"},
+                                      "~interaction: below this integral of the surface's normal inside the tool, the "
+                                      "force shrinks in proportion. It stays continuous.");
   return options;
 }
 
@@ -96,16 +88,16 @@ sweep_guard_core::HorizonOptions readHorizon(ParameterReader& read, Duration pos
   const double reflex = read.live().number("horizon/reflex", 0.1, {0.01, 1.0, "s"},
                                            "A collision predicted within this time from now raises REFLEX.");
   const double reflex_step = read.live().number(
-      "horizon/reflex_step", 0.01, any, "Duration of a predicted sweep within horizon/reflex; at most horizon/reflex.",
+      "horizon/reflex_step", 0.01, any, "Duration of a predicted sweep within horizon/reflex, and at most that.",
       ParameterReader::Range{kMinStep, reflex, "", "at most horizon/reflex"});
   const double considered = read.live().number(
       "horizon/considered", 1.0, any,
-      "A collision predicted within this time from now raises CONSIDERED. Must be later than horizon/reflex.",
+      "A collision predicted within this time from now raises CONSIDERED. Later than horizon/reflex.",
       ParameterReader::Range{reflex + kMinStep, kMaxHorizon, "", "later than horizon/reflex"});
   const double considered_step = read.live().number(
       "horizon/considered_step", 0.1, any,
-      "Duration of a predicted sweep after horizon/reflex; at most horizon/considered less horizon/reflex. The sweeps "
-      "become longer where the detector is too slow for timing/min_rate.",
+      "Duration of a predicted sweep after horizon/reflex, at most to horizon/considered. Longer where the detector is "
+      "too slow for timing/min_rate.",
       ParameterReader::Range{kMinStep, considered - reflex, "", "at most horizon/considered less horizon/reflex"});
   return {toDuration(reflex), toDuration(reflex_step), toDuration(considered), toDuration(considered_step),
           pose_timeout};
@@ -116,17 +108,16 @@ WarningThresholds readThresholds(ParameterReader& read, WarningThresholds thresh
   const ParameterReader::Range any{kMinProbability, 1.0};
   thresholds.considered_on =
       read.live().number("warning/considered_on", thresholds.considered_on, any,
-                         "A contact off the predicted path raises CONSIDERED from this probability "
-                         "within horizon/considered on. Smaller warns earlier, with more false alarms.");
+                         "Probability from which a contact off the predicted path within horizon/considered raises "
+                         "CONSIDERED. Smaller warns earlier, with more false alarms.");
   thresholds.considered_off = read.live().number(
       "warning/considered_off", std::min(thresholds.considered_off, thresholds.considered_on), any,
-      "CONSIDERED stays while a contact with that workpiece within horizon/considered is at least this "
-      "probable; at most "
-      "warning/considered_on. Smaller interrupts a warning less often.",
+      "Probability down to which such a contact with the same workpiece keeps CONSIDERED; at most "
+      "warning/considered_on. Smaller interrupts less often.",
       ParameterReader::Range{kMinProbability, thresholds.considered_on, "", "at most warning/considered_on"});
   thresholds.reflex = read.live().number(
       "warning/reflex_probability", thresholds.reflex, any,
-      "A contact off the predicted path raises REFLEX from this probability within horizon/reflex on.");
+      "Probability from which a contact off the predicted path within horizon/reflex raises REFLEX.");
   return thresholds;
 }
 
@@ -157,79 +148,67 @@ double maxDeviations(const WarningThresholds& thresholds) {
 Parameters readAll(ParameterReader& read, const Parameters* before) {
   Parameters parameters;
   parameters.fixed_frame = read.name("fixed_frame", "world", "tf frame in which motion is measured.");
-  const std::string source = read.choice(
-      "tool_source", "topic", {"topic", "tf", "joint_states"},
-      "topic: poses of the tool arrive on `tool_pose`. tf: the tool is the frame tool_frame in tf. "
-      "joint_states: the tool is moved by its joints, as `joint_states` says, and tool_frame, the link that "
-      "carries them, is where tf says.");
+  const std::string source = read.choice("tool_source", "topic", {"topic", "tf", "joint_states"},
+                                         "topic: poses on `tool_pose`. tf: the frame tool_frame. joint_states: joints "
+                                         "move the tool, and tf has tool_frame, which carries them.");
   const std::map<std::string, ToolSource> sources = {
       {"topic", ToolSource::kTopic}, {"tf", ToolSource::kTf}, {"joint_states", ToolSource::kJointStates}};
   parameters.tool_source = sources.at(source);
   parameters.tool_frame = read.name(
       "tool_frame", "tool",
-      "tf frame of the tool, and the tool's name in messages. With tool/type urdf: the "
-      "link that the poses are of, in tf maybe with a prefix (robot1/base_link); `tool` means the first of "
-      "tool/links or, with tool_source joint_states, the root of the robot. With tool_source tf or joint_states, "
-      "tf has to know it by this name.");
+      "tf frame of the tool, and its name in messages. urdf: the link that poses are of, in tf maybe with a prefix "
+      "(robot1/base_link); `tool` means the first of tool/links or, with tool_source joint_states, the robot's root.");
   readTool(read, before, parameters);
   parameters.detector.name =
       read.live().choice("detector", "select", sweep_guard_core::detectorNames(),
-                         "select: OpenGL selection off screen. halfspace: the same test on the processor's "
-                         "vector units, the fastest. reference: clips every triangle in double precision, "
-                         "slow.");
-  parameters.detector.options.cull = read.live().flag(
-      "cull", true, "select only: draws only triangles that do not lie wholly beyond one plane of the volume.");
+                         "select: OpenGL selection off screen. halfspace: the same test on vector units, the fastest. "
+                         "reference: clips every triangle in double precision, slow.");
+  parameters.detector.options.cull =
+      read.live().flag("cull", true, "select only: leaves out triangles wholly beyond one plane of the volume.");
   std::vector<std::string> gl_contexts = sweep_guard_core::offscreenContextNames();
   gl_contexts.insert(gl_contexts.begin(), sweep_guard_core::kAnyGlContext);
   parameters.detector.options.gl_context =
       read.choice("gl_context", gl_contexts.front(), gl_contexts,
-                  "select only: library that gives it OpenGL. Both are Mesa, render in software and answer alike; Mesa "
-                  "has no OSMesa from version 25.1 on. auto: osmesa, or egl if that is missing, or if both are missing "
-                  "the detector halfspace; log and /diagnostics say which and why. osmesa, egl: if it is missing, the "
-                  "node ends with status 2.");
-  const std::string self_test = read.choice(
-      "self_test", "unknown", {"unknown", "exit", "none"},
-      "The detector is tested at the start on triangles whose answers are known. If it fails: unknown: the warning is "
-      "never CLEAR, reason SELFTEST. exit: the node ends with status 2. none: it is not tested.");
+                  "select only: Mesa's library for OpenGL (no OSMesa from Mesa 25.1 on). auto: osmesa, else egl, else "
+                  "detector halfspace. osmesa, egl: without it the node ends with status 2.");
+  const std::string self_test = read.choice("self_test", "unknown", {"unknown", "exit", "none"},
+                                            "If the detector fails its test at the start: unknown: never CLEAR, reason "
+                                            "SELFTEST. exit: the node ends with status 2. none: no test.");
   const std::map<std::string, SelfTest> self_tests = {
       {"unknown", SelfTest::kUnknown}, {"exit", SelfTest::kExit}, {"none", SelfTest::kNone}};
   parameters.self_test = self_tests.at(self_test);
-  parameters.cross_check = read.integer(
-      "cross_check", 100, 0, 1000000,
-      "One query of the detector out of this many is answered again by another detector in spare time "
-      "(halfspace, and for that select; every tenth time reference). If they disagree, both answers count, reason "
-      "CROSSCHECK. 0: none.");
-  parameters.guard.sweep.fine =
-      read.live().flag("fine", true,
-                       "Confirms the triangles that a volume meets: when, where and how deep the tool "
-                       "touches them. A triangle that is proven to be missed is no contact.");
-  parameters.guard.sweep.volume = sweep_guard_core::volumeKind(read.live().choice(
-      "volume", "obb_planes", {"obb", "obb_planes", "hull"},
-      "Volume around the tool at two poses. obb: oriented box. obb_planes: box cut by two side planes and "
-      "two front planes, tighter. hull: convex hull, tightest and slower."));
+  parameters.cross_check = read.integer("cross_check", 100, 0, 1000000,
+                                        "Another detector answers one of so many queries again, in spare time. If they "
+                                        "disagree, both answers count, reason CROSSCHECK. 0: none.");
+  parameters.guard.sweep.fine = read.live().flag(
+      "fine", true,
+      "Rules out triangles that are missed, and says when, where and how deep the tool touches the others.");
+  parameters.guard.sweep.volume = sweep_guard_core::volumeKind(
+      read.live().choice("volume", "obb_planes", {"obb", "obb_planes", "hull"},
+                         "Volume around the tool at two poses. obb: oriented box. obb_planes: box cut by four planes, "
+                         "tighter. hull: convex hull, tightest, slower."));
   parameters.guard.sweep.max_rotation =
       read.live().number("max_rotation_per_sweep", 0.175, {0.01, 0.5, "rad"},
-                         "A motion that turns more is swept in several steps. Smaller is "
-                         "tighter and slower.");
+                         "A motion that turns more is swept in steps. Smaller: tighter and slower.");
   parameters.limits.thresholds = readThresholds(read);
   parameters.guard.max_deviations = maxDeviations(parameters.limits.thresholds);
   parameters.limits.hold_time = toDuration(read.live().number(
       "warning/hold_time", 0.5, {0.0, 60.0, "s"}, "A warning stays for this long after its cause is over."));
   parameters.limits.acknowledge_time =
       toDuration(read.live().number("warning/acknowledge_time", 10.0, {0.1, 60.0, "s"},
-                                    "A warning is acknowledged (~acknowledge) for no longer than this."));
+                                    "An acknowledgement (~acknowledge) lasts for this long at most."));
   parameters.limits.min_seen = readMinSeen(read, parameters.limits.min_seen);
   parameters.acknowledge_distance =
       read.live().number("warning/acknowledge_distance", 0.03, {0.0, 1.0, "m"},
-                         "A warning stays acknowledged while the tool, grown by this much, meets the workpiece.");
+                         "An acknowledgement lasts while the tool, grown by this, meets the workpiece.");
   parameters.proximity_reach =
       read.live().number("proximity/reach", 0.1, {0.0, 10.0, "m"},
-                         "~proximity has planes for all surfaces that are nearer to the tool; 0: it is not published.");
+                         "~proximity has planes for all surfaces nearer than this; 0: it is not published.");
   parameters.interaction = readInteraction(read);
-  parameters.joint_timeout = toDuration(read.live().number(
-      "timing/pose_timeout", 0.1, {0.01, 2.0, "s"},
-      "An older tool pose makes the warning UNKNOWN. So does a workpiece whose frame moves, where its newest transform "
-      "is older by more than one period of the transforms."));
+  parameters.joint_timeout =
+      toDuration(read.live().number("timing/pose_timeout", 0.1, {0.01, 2.0, "s"},
+                                    "An older tool pose makes the warning UNKNOWN. So does a transform of a workpiece "
+                                    "that moves, if it is older by more than one period of the transforms."));
   parameters.limits.pose_timeout = parameters.joint_timeout;
   for (const auto& [joint, timeout] : parameters.joint_timeouts)
     parameters.limits.pose_timeout = std::max(parameters.limits.pose_timeout, timeout);
@@ -246,39 +225,32 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
                                           "Poses are swept, and the path ahead is tested, at least this "
                                           "often."));
   parameters.marker_rate =
-      read.live().number("timing/marker_rate", 15.0, {0.1, 100.0, "Hz"},
-                         "~markers and ~cameras/ID are published at most this often, and only to subscribers.");
+      read.live().number("timing/marker_rate", 15.0, {0.1, 100.0, "Hz"}, "Highest rate of ~markers and ~cameras/ID.");
   for (const std::string& name : markerNamespaces()) {
-    const std::string bound = name == "workpieces" ? " What is beyond " + std::to_string(kMaxMarkedTriangles) +
-                                                         " triangles in all is a text in its place."
+    const std::string bound = name == "workpieces" ? " Beyond " + std::to_string(kMaxMarkedTriangles) +
+                                                         " triangles in all, a text takes its place."
                                                    : "";
-    if (read.live().flag("markers/" + name, true, "Publishes the namespace " + name + " of ~markers." + bound))
+    if (read.live().flag("markers/" + name, true, "Publishes this namespace of ~markers." + bound))
       parameters.marker_namespaces.insert(name);
   }
-  parameters.check_sweep_deadline = toDuration(
-      read.live().number("check_sweep/deadline", 1.0, {0.01, 60.0, "s"},
-                         "~check_sweep and ~check_trajectory give a path up that takes longer to test. At most 4 calls "
-                         "wait meanwhile."));
-  parameters.realtime_priority = read.integer("timing/realtime_priority", 0, 0, 99,
-                                              "Above 0 the sweeping thread asks for this real-time priority "
-                                              "(SCHED_FIFO). If the system refuses, the log says what to set.");
-  const std::vector<std::string> ids =
-      read.texts("mesh_ids",
-                 "Workpieces that must be there: the warning is not CLEAR without each of them, and no other id is "
-                 "listened to. []: all ids that come.");
+  parameters.check_sweep_deadline = toDuration(read.live().number(
+      "check_sweep/deadline", 1.0, {0.01, 60.0, "s"}, "~check_sweep and ~check_trajectory give up after this time."));
+  parameters.realtime_priority = read.integer(
+      "timing/realtime_priority", 0, 0, 99,
+      "SCHED_FIFO priority of the sweeping thread; 0: none. If the system refuses, the log says what to set.");
+  const std::vector<std::string> ids = read.texts(
+      "mesh_ids", "Workpieces without which the warning is not CLEAR; no other id is listened to. []: all that come.");
   parameters.mesh_ids.insert(ids.begin(), ids.end());
   readWorkpieces(read, parameters);
   if (!parameters.cameras.empty()) readRobotLinks(read, before, parameters);
-  parameters.other_tools = read.nodes(
-      "other_tools",
-      "Nodes of the guards of other tools, as in [/left/sweep_guard]: their links are workpieces, too, which "
-      "move and are predicted as these guards say. While one of them is silent for timing/pose_timeout, the "
-      "warning is UNKNOWN, reason NOT_COVERED. []: none.");
+  parameters.other_tools =
+      read.nodes("other_tools",
+                 "Guards of other tools, as [/left/sweep_guard]: their links are workpieces that move as these guards "
+                 "say. One that is silent for timing/pose_timeout makes the warning UNKNOWN, reason NOT_COVERED.");
   parameters.allow_several_publishers =
       read.flag("allow_several_publishers", false,
-                "Allows several publishers on `tool_pose`, and of tf frames that place the tool or a workpiece. "
-                "Otherwise the warning is UNKNOWN while there are several: what they place would jump between their "
-                "poses.");
+                "Allows several publishers of `tool_pose`, and of tf frames that place the tool or a workpiece. "
+                "Otherwise they make the warning UNKNOWN.");
   parameters.max_triangles = static_cast<size_t>(
       read.integer("limits/max_triangles", 1000000, 1, 10000000, "A mesh with more triangles is refused."));
   const int max_message_size =
@@ -286,10 +258,10 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
                    "[bytes] A longer message is refused unread. 0: 84 for each of limits/max_triangles, and 1 MiB.");
   parameters.max_message_size = max_message_size > 0 ? static_cast<size_t>(max_message_size)
                                                      : kBytesPerTriangle * parameters.max_triangles + kMebibyte;
-  parameters.max_memory = static_cast<size_t>(
-      read.integer("limits/memory", 4096, 0, 1 << 24,
-                   "[MiB] Address space that the node's process may take; what does not fit is refused. 0: no limit. "
-                   "The nodelet leaves it to its manager."));
+  parameters.max_memory =
+      static_cast<size_t>(read.integer("limits/memory", 4096, 0, 1 << 24,
+                                       "[MiB] Address space of the process; what does not fit is refused. 0: no limit. "
+                                       "A nodelet leaves it to its manager."));
   read.number("diagnostic_period", 1.0, {0.0, kInfinity});  // set by diagnostic_updater
   parameters.settings = read.settings();
   parameters.described = read.described();

@@ -18,10 +18,8 @@ using sweep_guard_core::Duration;
 sweep_guard_core::Tool readCylinder(ParameterReader& read, double padding) {
   const double radius = read.number("tool/radius", 0.01, {1e-6, 100.0, "m"}, "Radius of the cylinder.");
   const double length = read.number("tool/length", 0.15, {1e-6, 100.0, "m"}, "Length of the cylinder.");
-  const int sides =
-      read.integer("tool/sides", 32, 3, 1000,
-                   "Sides of the polygonal cylinder that decides how the box is turned. The tool itself is "
-                   "round.");
+  const int sides = read.integer("tool/sides", 32, 3, 1000,
+                                 "Sides of the polygon that decides how the box is turned. The tool itself is round.");
   return sweep_guard_core::Tool(sweep_guard_core::ConvexShape::cylinder(radius, length, sides).padded(padding));
 }
 
@@ -29,26 +27,21 @@ ToolModelOptions readModelOptions(ParameterReader& read, const std::string& fram
   ToolModelOptions options;
   options.frame = frame;
   options.padding = padding;
-  options.links = read.texts("tool/links",
-                             "urdf only: links that are the tool. []: the link tool_frame and all that is attached to "
-                             "it.");
-  const std::string geometry =
-      read.choice("tool/geometry", "collision", {"collision", "visual", "either"},
-                  "urdf only: geometry of the links that the tool is made of. either: the collision geometry of a "
-                  "link or, where it has none, its visual geometry; /diagnostics says which (tool).");
+  options.links =
+      read.texts("tool/links", "urdf only: links that are the tool. []: tool_frame and all that is attached to it.");
+  const std::string geometry = read.choice(
+      "tool/geometry", "collision", {"collision", "visual", "either"},
+      "urdf only: geometry of the links. either: collision or, where there is none, visual; /diagnostics says which.");
   if (geometry == "visual") options.geometry = LinkGeometry::kVisual;
   if (geometry == "either") options.geometry = LinkGeometry::kEither;
-  options.mesh_depth =
-      read.integer("tool/mesh_depth", options.mesh_depth, 0, 16,
-                   "urdf only: a mesh is cut in two up to this many times where that makes the tool "
-                   "tighter; 0: one convex hull for each mesh. More pieces follow hollows more closely and cost time.");
+  options.mesh_depth = read.integer("tool/mesh_depth", options.mesh_depth, 0, 16,
+                                    "urdf only: how often a mesh may be cut in two; 0: one convex hull. More follows "
+                                    "hollows more closely and costs time.");
   options.joints = read.numbers("tool/joints",
-                                "urdf only: position [rad or m] of moving joints within the tool, by name, within the "
-                                "joint's limits. The other joints are as close to 0 as they can be or, with "
-                                "tool/joint_states, where `joint_states` says.");
-  options.mesh_roots = read.texts("tool/mesh_roots",
-                                  "urdf only: absolute folders that file:// meshes may be in, in addition to packages "
-                                  "on ROS_PACKAGE_PATH.");
+                                "urdf only: where joints within the tool stay [rad or m], by name. Others are as close "
+                                "to 0 as their limits allow, or where `joint_states` says.");
+  options.mesh_roots = read.texts(
+      "tool/mesh_roots", "urdf only: absolute folders of file:// meshes, besides packages on ROS_PACKAGE_PATH.");
   return options;
 }
 
@@ -109,10 +102,10 @@ void readRobot(ParameterReader& read, const std::string& parameter, const ToolMo
 
 sweep_guard_core::AllowedPairs readAllowed(ParameterReader& read) {
   sweep_guard_core::AllowedPairs pairs;
-  for (const auto& texts : read.groups("tool/allowed", {"link", "mesh_id"},
-                                       "Contact of this link of the tool with this workpiece is allowed: it is no "
-                                       "warning and limits no motion; `*`: each link, or each workpiece. A cylinder's "
-                                       "link is `*`. What the link touches is `allowed` in ~contacts.")) {
+  for (const auto& texts :
+       read.groups("tool/allowed", {"link", "mesh_id"},
+                   "Contact of this link with this workpiece is no warning and limits no motion; it is `allowed` in "
+                   "~contacts. `*`: each link, or each workpiece. A cylinder's link is `*`.")) {
     if (!sweep_guard_core::isName(texts[1])) {
       throw sweep_guard_core::InvalidInput("parameter tool/allowed: mesh_id '" + sweep_guard_core::printable(texts[1]) +
                                            "' is no name of a workpiece: at most 128 printable characters");
@@ -135,13 +128,12 @@ using Bodies = std::vector<sweep_guard_core::Tool>;
 
 std::map<std::string, Duration> readJointTimeouts(ParameterReader& read) {
   std::map<std::string, Duration> timeouts;
-  for (const auto& [joint, seconds] : read.numbers(
-           "tool/joint_timeouts",
-           "tool/joint_states only: age [s] from which a joint makes the warning UNKNOWN, by name, 0.01 to 2. The "
-           "others have timing/pose_timeout. The longest one holds for the tool, transforms and other tools, too, if "
-           "it is longer than timing/pose_timeout. The tool is swept up to where all joints are known: a slow joint "
-           "delays contacts, not predictions.",
-           ParameterReader::Range{0.01, 2.0, "s"})) {
+  for (const auto& [joint, seconds] :
+       read.numbers("tool/joint_timeouts",
+                    "Age [s] from which a joint makes the warning UNKNOWN, by name, 0.01 to 2; others: "
+                    "timing/pose_timeout. The longest also holds for the tool, transforms and other tools, if longer "
+                    "than that. A slow joint delays contacts, not predictions.",
+                    ParameterReader::Range{0.01, 2.0, "s"})) {
     timeouts[joint] = sweep_guard_core::fromSeconds(seconds);
   }
   return timeouts;
@@ -151,35 +143,32 @@ std::map<std::string, Duration> readJointTimeouts(ParameterReader& read) {
 
 void readTool(ParameterReader& read, const Parameters* before, Parameters& parameters) {
   const std::string type = read.choice("tool/type", "cylinder", {"cylinder", "urdf"},
-                                       "cylinder: the tool fills z in [-tool/length, 0] of its frame; z points out of "
-                                       "the tip. urdf: the tool is the geometry of a robot description's links.");
+                                       "cylinder: fills z in [-tool/length, 0] of the tool frame; z points out of the "
+                                       "tip. urdf: the geometry of links of a robot description.");
   const double padding = read.live().number("tool/padding", 0.0, {0.0, 1.0, "m"}, "Grows the tool on all sides.");
   const sweep_guard_core::Tool cylinder = readCylinder(read, padding);
-  const std::string description = read.name("tool/robot_description", "robot_description",
-                                            "urdf only: name of the parameter that holds the URDF, searched from the "
-                                            "node's namespace upwards.");
+  const std::string description =
+      read.name("tool/robot_description", "robot_description",
+                "urdf only: parameter with the URDF, searched from the node's namespace upwards.");
   read.ignore(description);
   ToolModelOptions options = readModelOptions(read, parameters.tool_frame, padding);
   options.of_root = parameters.tool_source == ToolSource::kJointStates;
   parameters.robot_description = description;
   parameters.mesh_depth = options.mesh_depth;
   parameters.mesh_roots = options.mesh_roots;
-  const bool joint_states = read.flag(
-      "tool/joint_states", false,
-      "urdf only: joints of the tool move, and `joint_states` says how. tool_frame must be a link that none of "
-      "them moves. Implied by tool_source joint_states.");
-  parameters.joint_names = read.textsByName(
-      "tool/joint_names",
-      "urdf only: names of joints in the robot description, by their names in `joint_states`, where these differ: "
-      "{outer_yaw: yaw}. ~check_trajectory takes both.");
+  const bool joint_states = read.flag("tool/joint_states", false,
+                                      "urdf only: `joint_states` moves joints of the tool, none of them tool_frame. "
+                                      "Implied by tool_source joint_states.");
+  parameters.joint_names =
+      read.textsByName("tool/joint_names",
+                       "urdf only: names in the URDF by names in `joint_states`, where they differ: {outer_yaw: yaw}.");
   parameters.joint_timeouts = readJointTimeouts(read);
   parameters.guard.allowed = readAllowed(read);
   parameters.articulated = joint_states || parameters.tool_source == ToolSource::kJointStates;
   parameters.trajectory_action = read.optionalName(
       "trajectory/action",
-      "Action control_msgs/FollowJointTrajectory of the controller that moves the joints, as in "
-      "/arm_controller/follow_joint_trajectory: the trajectory under way is predicted, and its rest tested "
-      "(~trajectory). The joints of the tool must move (tool/joint_states).");
+      "control_msgs/FollowJointTrajectory action that moves the joints, as /arm_controller/follow_joint_trajectory: "
+      "its trajectory is predicted, and its rest tested (~trajectory). Needs joints that move.");
   if (!parameters.trajectory_action.empty() && !parameters.articulated) {
     throw sweep_guard_core::InvalidInput(
         "trajectory/action: no joints of the tool move: set tool/joint_states, or tool_source joint_states");
@@ -241,14 +230,13 @@ void readCommandSource(ParameterReader& read, Parameters& parameters) {
                                                       {"twist_stamped", CommandSource::kTwistStamped},
                                                       {"twist", CommandSource::kTwist},
                                                       {"joint_jog", CommandSource::kJointJog}};
-  const CommandSource type = types.at(read.choice(
-      "prediction/command_type", "none", {"none", "pose_stamped", "twist_stamped", "twist", "joint_jog"},
-      "Type of what goes to the robot, from which `direct` predicts, too: geometry_msgs/PoseStamped, TwistStamped or "
-      "Twist (along the axes of fixed_frame) of tool_frame [m, m/s, rad/s], or velocities of joints as "
-      "control_msgs/JointJog. none: nothing is listened to."));
+  const CommandSource type = types.at(
+      read.choice("prediction/command_type", "none", {"none", "pose_stamped", "twist_stamped", "twist", "joint_jog"},
+                  "Commands to the robot, from which `direct` predicts, too: geometry_msgs types, of tool_frame [m, "
+                  "m/s, rad/s] (twist: along the axes of fixed_frame), or control_msgs/JointJog. none: none."));
   parameters.command_type = type;
   parameters.command_topic = read.name("prediction/command_topic", "command",
-                                       "Topic of what goes to the robot: with motion_guard its guarded_command.");
+                                       "Topic of these commands: with motion_guard its guarded_command.");
   const bool of_joints = type == CommandSource::kJointJog;
   if (of_joints && !parameters.articulated)
     throw sweep_guard_core::InvalidInput("prediction/command_type: no joint moves the tool: use another one");

@@ -20,10 +20,9 @@ void readWorkpieces(ParameterReader& read, Parameters& parameters) {
       {{"open"},
        {"padding", ParameterRange{0.0, 1.0, "m"}},
        {"timeout", ParameterRange{0.01, sweep_guard_core::kInfinity, "s"}}},
-      "Rules for some workpieces by their id, and by '*' for all others, as in {curtain: {open: true}, '*': {timeout: "
-      "0.2}}. open: the surface has no inside, so the guard does not test for it and does not report INSIDE_UNTESTED. "
-      "padding: the workpiece counts as nearer by this, for sweeps, predictions and planes; the depth of an intention "
-      "counts from there. timeout: in place of timing/mesh_timeout.");
+      "Rules by id, `'*'` for all others: `{curtain: {open: true}, '*': {timeout: 0.2}}`. open: the surface has no "
+      "inside, which is not tested or reported (INSIDE_UNTESTED). padding: it counts as nearer by this; the depth of "
+      "an intention counts from there. timeout: replaces timing/mesh_timeout.");
   for (const auto& [id, rule] : rules) {
     if (id != "*") parameters.ruled_ids.insert(id);
     if (const auto open = rule.find("open"); open != rule.end()) addRule(id, open->second != 0.0, parameters.sheets);
