@@ -153,9 +153,10 @@ void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<
     Detector& detector = setup.detectors.of(*workpiece);
     const ContactPolicy contact(setup.tool, *workpiece, &setup.allowed, &setup.intentions);
     while (nextMotion(setup, object.result, passage)) {
-      for (const MovingMesh& mesh : meshes_) {
+      // The older ones have met these poses before.
+      for (size_t i = passage.isNew() ? 0 : meshes_.size() - 1; i < meshes_.size(); ++i) {
         SweepResult& result =
-            sweep_checker_.check(detector, {setup.tool, sub_motions_M_, mesh, setup.options, cache_, contact});
+            sweep_checker_.check(detector, {setup.tool, sub_motions_M_, meshes_[i], setup.options, cache_, contact});
         keep(passage, report.end, result, object);
       }
     }
@@ -285,20 +286,28 @@ const std::shared_ptr<const Workpiece>& MeasuredSweeps::deformationAt(Time pose,
 
 // Of those that came meanwhile, only the newest is swept besides the one that was swept last.
 void MeasuredSweeps::replace(Swept& swept, const std::shared_ptr<const Workpiece>& workpiece) {
-  Swept next{{workpiece}, swept.pose};
+  Swept next = firstOf(workpiece, swept.pose);
   const auto [place, is_first] = replaced_.try_emplace(workpiece->id);
   std::swap(swept, next);
   if (is_first) place->second = std::move(next);
 }
 
+// What a camera saw was there at its stamp; what comes otherwise, from the last pose on.
+MeasuredSweeps::Swept MeasuredSweeps::firstOf(const std::shared_ptr<const Workpiece>& workpiece,
+                                              std::uint64_t swept_to) const {
+  if (!workpiece->of_camera) return {{workpiece}, swept_to};
+  const PoseHistory& history = poses_.of(workpiece->frame);
+  return {{workpiece}, std::min(swept_to, history[history.lastUpTo(workpiece->stamp)].number)};
+}
+
 // A workpiece with other triangles, or in another frame, has not been swept since the last pose.
 MeasuredSweeps::Swept& MeasuredSweeps::lastSwept(const std::shared_ptr<const Workpiece>& workpiece) {
   const auto entry = swept_.find(workpiece->id);
-  if (entry == swept_.end()) return swept_.emplace(workpiece->id, Swept{{workpiece}, swept_to_}).first->second;
+  if (entry == swept_.end()) return swept_.emplace(workpiece->id, firstOf(workpiece, swept_to_)).first->second;
   Swept& swept = entry->second;
   const Workpiece& before = *swept.deformations.back();
   if (before.frame != workpiece->frame) {
-    swept = {{workpiece}, swept_to_};
+    swept = firstOf(workpiece, swept_to_);
     replaced_.erase(workpiece->id);
   } else if (!sameTriangles(before.mesh_M, workpiece->mesh_M)) {
     replace(swept, workpiece);

@@ -104,6 +104,7 @@ class MeasuredSweeps {
   void confirm(const Passage& passage, const SweepResult& found);
   void keep(const Passage& passage, Time end, SweepResult& result, SweptObject& object);
   static const std::shared_ptr<const Workpiece>& deformationAt(Time pose, const Workpiece& newest, Swept& swept);
+  Swept firstOf(const std::shared_ptr<const Workpiece>& workpiece, std::uint64_t swept_to) const;
   void replace(Swept& swept, const std::shared_ptr<const Workpiece>& workpiece);
   Swept& lastSwept(const std::shared_ptr<const Workpiece>& workpiece);
   void forgetRemoved(const Workpieces& workpieces);
