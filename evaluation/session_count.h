@@ -55,7 +55,7 @@ struct ObjectSession {
   SessionCount count;
 };
 
-/// Counts contacts and alarms of one object. doc/warnings.md has the definitions.
+/// Counts contacts and alarms of one object. doc/tune.md has the definitions.
 /// @param levels               of the warnings about the object
 /// @param measure_near_misses  how near unjustified alarms were, which takes most of the time
 void countSession(const RecordedMotion& motion, const sweep_guard_recording::LevelTrace& levels,

@@ -218,7 +218,7 @@ TEST_F(CameraTest, ALargerShareThatMustBeSeenIsMissedSooner) {
   stepUntil(table, kOverTable, isClear);
 }
 
-// The colors of doc/rviz.md.
+// The colors of doc/warnings.md.
 constexpr std::uint32_t kSeen = 0xD6CCBD;
 constexpr std::uint32_t kRemembered = 0x339999;
 constexpr std::uint32_t kSelf = 0x5980E6;

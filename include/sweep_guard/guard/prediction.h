@@ -21,7 +21,7 @@ enum class PredictionInterval { kReflex, kConsidered };
 
 /// Returns the probability that the tool meets a workpiece within an interval, anywhere and on any way, if the predicted
 /// path comes as near to the workpiece within that interval as `deviations` (PredictedSweep). Falls with the deviations;
-/// 0 beyond kMaxDeviations. These are the frequencies on recorded motion (doc/warnings.md).
+/// 0 beyond kMaxDeviations. These are the frequencies on recorded motion (doc/tune.md).
 double probabilityWithin(PredictionInterval interval, double deviations);
 
 /// Returns the largest number of deviations that has at least this probability; -infinity if none has. The inverse of
