@@ -20,10 +20,9 @@ void readSources(ParameterReader& read, HapticsParameters& parameters) {
   parameters.device_frame = read.optionalName(
       "device_frame", "tf frame that does not move with the device; the force is along its axes. Empty: fixed_frame.");
   if (parameters.device_frame.empty()) parameters.device_frame = tool.fixed_frame;
-  parameters.device_tells_pose =
-      read.choice("device_source", "tool_pose", {"tool_pose", "device_pose"},
-                  "What tells the passivity controller the motion of the hand. tool_pose: the tool, if it always "
-                  "follows. device_pose: poses of the device on `device_pose`.") == "device_pose";
+  parameters.device_tells_pose = read.choice("device_source", "tool_pose", {"tool_pose", "device_pose"},
+                                             "Motion of the hand. tool_pose: that of the tool, if it always follows. "
+                                             "device_pose: poses of the device on `device_pose`.") == "device_pose";
 }
 
 void readContact(ParameterReader& read, ForceOptions& force) {
@@ -34,9 +33,9 @@ void readContact(ParameterReader& read, ForceOptions& force) {
       read.number("damping", law.damping, {0.0, 1e3, "N s/m"}, "Force on the tool for a speed into a surface.");
   law.distance =
       read.number("distance", law.distance, {0.0, 1.0, "m"}, "Distance from a surface at which the force begins.");
-  law.cue_damping = read.number("cue/damping", law.cue_damping, {0.0, 1e3, "N s/m"},
-                                "Force on the tool for a speed towards a surface within cue/time: from 0 to this as "
-                                "the time shrinks. 0: no cue.");
+  law.cue_damping =
+      read.number("cue/damping", law.cue_damping, {0.0, 1e3, "N s/m"},
+                  "Force on the tool for a speed towards a surface within cue/time, growing to this. 0: no cue.");
   law.cue_time = read.number("cue/time", law.cue_time, {0.01, 5.0, "s"},
                              "Time before contact, at the present speed, when the cue begins.");
 }
@@ -60,9 +59,9 @@ void readDevice(ParameterReader& read, HapticsParameters& parameters) {
                                      "cue/damping, times force_scale and position_scale.");
   force.device_turn_damping = read.number("device_turn_damping", force.device_turn_damping, {1e-6, 10.0, "N m s/rad"},
                                           "The same about any axis, where there is torque.");
-  parameters.hand.max_speed = read.number("max_speed", parameters.hand.max_speed, {1e-2, 10.0, "m/s"},
-                                          "Largest speed of the hand along an axis, for the passivity controller. "
-                                          "Lower values leave more force where poses are late.");
+  parameters.hand.max_speed =
+      read.number("max_speed", parameters.hand.max_speed, {1e-2, 10.0, "m/s"},
+                  "Largest speed of the hand along an axis. Lower values leave more force where poses are late.");
   parameters.hand.max_acceleration =
       read.number("max_acceleration", parameters.hand.max_acceleration, {1.0, 1e4, "m/s^2"},
                   "Largest acceleration of the hand along an axis.");

@@ -18,10 +18,9 @@ void readCommand(ParameterReader& read, MotionParameters& parameters) {
       {"twist_stamped", "twist", "pose_stamped", "joint_jog", "joint_trajectory", "joint_velocities"},
       "Type of `command` and `guarded_command`: a geometry_msgs type, of the tool; or velocities of joints: "
       "control_msgs/JointJog, trajectory_msgs/JointTrajectory of one point, std_msgs/Float64MultiArray."));
-  const std::string mode =
-      read.choice("command_mode", "absolute", {"absolute", "incremental"},
-                  "pose_stamped only. absolute: the tool goes to the pose, and catches up with what was held back. "
-                  "incremental: it moves as the poses do; what was held back is lost, and ~rebase is the clutch.");
+  const std::string mode = read.choice("command_mode", "absolute", {"absolute", "incremental"},
+                                       "pose_stamped only. absolute: the tool catches up with what was held back. "
+                                       "incremental: that is lost, and ~rebase is the clutch.");
   parameters.incremental = mode == "incremental";
 }
 
@@ -62,9 +61,8 @@ void readScales(ParameterReader& read, MotionParameters& parameters) {
 
 void readTimes(ParameterReader& read, MotionParameters& parameters) {
   sweep_guard_core::MotionGuardOptions& options = parameters.options;
-  options.command_timeout =
-      readSeconds(read, "command_timeout", options.command_timeout, {0.005, 10.0, "s"},
-                  "An older command counts as zero. Also the longest period of commands that is counted on.");
+  options.command_timeout = readSeconds(read, "command_timeout", options.command_timeout, {0.005, 10.0, "s"},
+                                        "An older command counts as zero: the longest period of commands.");
   options.silence = readSeconds(read, "silence", options.silence, {0.02, 2.0, "s"},
                                 "Zero is sent unless a warning, planes and a tool pose have come within this time.");
   parameters.tool.silence = options.silence;
@@ -72,9 +70,8 @@ void readTimes(ParameterReader& read, MotionParameters& parameters) {
       read.integer("halt_messages", 4, 0, 1000, "Zeros that are sent after the commands have stopped. 0: without end.");
   options.dead_time = readSeconds(read, "lag/dead_time", std::chrono::milliseconds(20), {0.0, 2.0, "s"},
                                   "Time until the robot begins to do what was sent.");
-  options.time_constant =
-      readSeconds(read, "lag/time_constant", std::chrono::milliseconds(30), {0.0, 2.0, "s"},
-                  "Time constant with which it then follows, with all filters behind motion_guard.");
+  options.time_constant = readSeconds(read, "lag/time_constant", std::chrono::milliseconds(30), {0.0, 2.0, "s"},
+                                      "Time constant with which it then follows, filters included.");
 }
 
 void readMotion(ParameterReader& read, MotionParameters& parameters) {
@@ -84,9 +81,9 @@ void readMotion(ParameterReader& read, MotionParameters& parameters) {
                   "Deceleration of the fastest tool point when the robot is stopped. It brakes along its path.");
   options.standoff = read.number("standoff", options.standoff, {0.0, 1.0, "m"},
                                  "Distance from a surface at which nothing closes on it.");
-  options.escape_speed = read.number("escape_speed", options.escape_speed, {0.0, 10.0, "m/s"},
-                                     "Speed at which a command may lead away from every surface while the guard does "
-                                     "not know or is silent, up to 0.5 s after the newest planes. 0: none.");
+  options.escape_speed =
+      read.number("escape_speed", options.escape_speed, {0.0, 10.0, "m/s"},
+                  "Speed at which a command may lead away from every surface while the guard does not know. 0: none.");
   options.unseen_speed =
       read.number("unseen_speed", options.unseen_speed, {0.0, 10.0, "m/s"},
                   "Largest speed of any tool point while cameras do not see where the tool is going (NOT_SEEN).");

@@ -39,10 +39,9 @@ sweep_guard_core::PredictorOptions readPredictor(ParameterReader& read) {
       read.live().choice("prediction/predictor", options.predictor, sweep_guard_core::predictorNames(),
                          "direct: learns the displacement within each horizon from the operator's velocities. "
                          "polynomial: one per axis. constant_velocity: the newest velocity. hold: no motion.");
-  const std::vector<int> degree =
-      read.live().integers("prediction/degree", {options.degree.begin(), options.degree.end()}, 0, 5,
-                           "polynomial only: degree along x y z of the fixed frame, then about x y z of the tool; of "
-                           "joints, the largest. Higher follows curves and overshoots.");
+  const std::vector<int> degree = read.live().integers(
+      "prediction/degree", {options.degree.begin(), options.degree.end()}, 0, 5,
+      "polynomial only: degree along x y z of the fixed frame, then about x y z of the tool; of joints, the largest.");
   std::copy(degree.begin(), degree.end(), options.degree.begin());
   for (const std::string& axis : read.live().selection(
            "prediction/constrained", axes, "Axes that the operator cannot move: predicted to stay. Not of joints.")) {
@@ -50,8 +49,7 @@ sweep_guard_core::PredictorOptions readPredictor(ParameterReader& read) {
   }
   options.forgetting_factor =
       read.live().number("prediction/forgetting_factor", options.forgetting_factor, {0.01, 1.0},
-                         "Weight of a sample relative to the next one. Smaller follows turns sooner, "
-                         "larger filters more noise.");
+                         "Weight of a sample relative to the next one. Smaller follows turns sooner.");
   options.window = toDuration(read.live().number("prediction/window", sweep_guard_core::toSeconds(options.window),
                                                  {0.02, 10.0, "s"}, "Polynomials ignore older samples."));
   options.max_speed = read.live().number(
@@ -74,12 +72,12 @@ sweep_guard_core::InteractionOptions readInteraction(ParameterReader& read) {
     options.stiffness_of[id] = stiffness;
     options.stiffness_of.emplace("/" + id, stiffness);  // YAML's key of an id with a slash at its front has none
   }
-  law.damping = read.live().number(
-      "interaction/damping", law.damping, {0.0, 1000.0, "s/m"},
-      "~interaction: share by which the force grows per closing speed, and shrinks on the way out. It never pulls.");
-  law.least_area = read.live().number("interaction/min_area", law.least_area, {1e-12, 1.0, "m^2"},
-                                      "~interaction: below this integral of the surface's normal inside the tool, the "
-                                      "force shrinks in proportion. It stays continuous.");
+  law.damping =
+      read.live().number("interaction/damping", law.damping, {0.0, 1000.0, "s/m"},
+                         "~interaction: share by which the force grows per closing speed, and shrinks on the way out.");
+  law.least_area = read.live().number(
+      "interaction/min_area", law.least_area, {1e-12, 1.0, "m^2"},
+      "~interaction: below this integral of the surface's normal inside the tool, the force shrinks in proportion.");
   return options;
 }
 
@@ -112,8 +110,7 @@ WarningThresholds readThresholds(ParameterReader& read, WarningThresholds thresh
                          "CONSIDERED. Smaller warns earlier, with more false alarms.");
   thresholds.considered_off = read.live().number(
       "warning/considered_off", std::min(thresholds.considered_off, thresholds.considered_on), any,
-      "Probability down to which such a contact with the same workpiece keeps CONSIDERED; at most "
-      "warning/considered_on. Smaller interrupts less often.",
+      "Probability down to which such a contact keeps CONSIDERED; at most warning/considered_on.",
       ParameterReader::Range{kMinProbability, thresholds.considered_on, "", "at most warning/considered_on"});
   thresholds.reflex = read.live().number(
       "warning/reflex_probability", thresholds.reflex, any,
@@ -154,10 +151,10 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
   const std::map<std::string, ToolSource> sources = {
       {"topic", ToolSource::kTopic}, {"tf", ToolSource::kTf}, {"joint_states", ToolSource::kJointStates}};
   parameters.tool_source = sources.at(source);
-  parameters.tool_frame = read.name(
-      "tool_frame", "tool",
-      "tf frame of the tool, and its name in messages. urdf: the link that poses are of, in tf maybe with a prefix "
-      "(robot1/base_link); `tool` means the first of tool/links or, with tool_source joint_states, the robot's root.");
+  parameters.tool_frame =
+      read.name("tool_frame", "tool",
+                "tf frame of the tool, and its name in messages. urdf: the link that poses are of, in tf maybe with a "
+                "prefix; `tool`: the first of tool/links or, with joint_states, the root.");
   readTool(read, before, parameters);
   parameters.detector.name =
       read.live().choice("detector", "select", sweep_guard_core::detectorNames(),
@@ -170,16 +167,16 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
   parameters.detector.options.gl_context =
       read.choice("gl_context", gl_contexts.front(), gl_contexts,
                   "select only: Mesa's library for OpenGL (no OSMesa from Mesa 25.1 on). auto: osmesa, else egl, else "
-                  "detector halfspace. osmesa, egl: without it the node ends with status 2.");
-  const std::string self_test = read.choice("self_test", "unknown", {"unknown", "exit", "none"},
-                                            "If the detector fails its test at the start: unknown: never CLEAR, reason "
-                                            "SELFTEST. exit: the node ends with status 2. none: no test.");
+                  "detector halfspace. osmesa, egl: without it the node ends.");
+  const std::string self_test = read.choice(
+      "self_test", "unknown", {"unknown", "exit", "none"},
+      "If the detector fails its test at the start: unknown: never CLEAR. exit: the node ends. none: no test.");
   const std::map<std::string, SelfTest> self_tests = {
       {"unknown", SelfTest::kUnknown}, {"exit", SelfTest::kExit}, {"none", SelfTest::kNone}};
   parameters.self_test = self_tests.at(self_test);
   parameters.cross_check = read.integer("cross_check", 100, 0, 1000000,
                                         "Another detector answers one of so many queries again, in spare time. If they "
-                                        "disagree, both answers count, reason CROSSCHECK. 0: none.");
+                                        "disagree, both answers count. 0: none.");
   parameters.guard.sweep.fine = read.live().flag(
       "fine", true,
       "Rules out triangles that are missed, and says when, where and how deep the tool touches the others.");
@@ -208,7 +205,7 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
   parameters.joint_timeout =
       toDuration(read.live().number("timing/pose_timeout", 0.1, {0.01, 2.0, "s"},
                                     "An older tool pose makes the warning UNKNOWN. So does a transform of a workpiece "
-                                    "that moves, if it is older by more than one period of the transforms."));
+                                    "that moves, if older by more than its period."));
   parameters.limits.pose_timeout = parameters.joint_timeout;
   for (const auto& [joint, timeout] : parameters.joint_timeouts)
     parameters.limits.pose_timeout = std::max(parameters.limits.pose_timeout, timeout);
@@ -239,14 +236,13 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
       "timing/realtime_priority", 0, 0, 99,
       "SCHED_FIFO priority of the sweeping thread; 0: none. If the system refuses, the log says what to set.");
   const std::vector<std::string> ids = read.texts(
-      "mesh_ids", "Workpieces without which the warning is not CLEAR; no other id is listened to. []: all that come.");
+      "mesh_ids", "Workpieces without which the warning is not CLEAR; others are ignored. []: all that come.");
   parameters.mesh_ids.insert(ids.begin(), ids.end());
   readWorkpieces(read, parameters);
   if (!parameters.cameras.empty()) readRobotLinks(read, before, parameters);
-  parameters.other_tools =
-      read.nodes("other_tools",
-                 "Guards of other tools, as [/left/sweep_guard]: their links are workpieces that move as these guards "
-                 "say. One that is silent for timing/pose_timeout makes the warning UNKNOWN, reason NOT_COVERED.");
+  parameters.other_tools = read.nodes("other_tools",
+                                      "Guards of other tools, as [/left/sweep_guard]: their links are workpieces. One "
+                                      "that is silent for timing/pose_timeout makes the warning UNKNOWN.");
   parameters.allow_several_publishers =
       read.flag("allow_several_publishers", false,
                 "Allows several publishers of `tool_pose`, and of tf frames that place the tool or a workpiece. "

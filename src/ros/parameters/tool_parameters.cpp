@@ -18,8 +18,7 @@ using sweep_guard_core::Duration;
 sweep_guard_core::Tool readCylinder(ParameterReader& read, double padding) {
   const double radius = read.number("tool/radius", 0.01, {1e-6, 100.0, "m"}, "Radius of the cylinder.");
   const double length = read.number("tool/length", 0.15, {1e-6, 100.0, "m"}, "Length of the cylinder.");
-  const int sides = read.integer("tool/sides", 32, 3, 1000,
-                                 "Sides of the polygon that decides how the box is turned. The tool itself is round.");
+  const int sides = read.integer("tool/sides", 32, 3, 1000, "Sides of the polygon that decides how the box is turned.");
   return sweep_guard_core::Tool(sweep_guard_core::ConvexShape::cylinder(radius, length, sides).padded(padding));
 }
 
@@ -34,9 +33,9 @@ ToolModelOptions readModelOptions(ParameterReader& read, const std::string& fram
       "urdf only: geometry of the links. either: collision or, where there is none, visual; /diagnostics says which.");
   if (geometry == "visual") options.geometry = LinkGeometry::kVisual;
   if (geometry == "either") options.geometry = LinkGeometry::kEither;
-  options.mesh_depth = read.integer("tool/mesh_depth", options.mesh_depth, 0, 16,
-                                    "urdf only: how often a mesh may be cut in two; 0: one convex hull. More follows "
-                                    "hollows more closely and costs time.");
+  options.mesh_depth = read.integer(
+      "tool/mesh_depth", options.mesh_depth, 0, 16,
+      "urdf only: how often a mesh may be cut in two; 0: one convex hull. More follows hollows and costs time.");
   options.joints = read.numbers("tool/joints",
                                 "urdf only: where joints within the tool stay [rad or m], by name. Others are as close "
                                 "to 0 as their limits allow, or where `joint_states` says.");
@@ -168,7 +167,7 @@ void readTool(ParameterReader& read, const Parameters* before, Parameters& param
   parameters.trajectory_action = read.optionalName(
       "trajectory/action",
       "control_msgs/FollowJointTrajectory action that moves the joints, as /arm_controller/follow_joint_trajectory: "
-      "its trajectory is predicted, and its rest tested (~trajectory). Needs joints that move.");
+      "its trajectory is predicted, and its rest tested (~trajectory).");
   if (!parameters.trajectory_action.empty() && !parameters.articulated) {
     throw sweep_guard_core::InvalidInput(
         "trajectory/action: no joints of the tool move: set tool/joint_states, or tool_source joint_states");

@@ -15,14 +15,14 @@ void addRule(const std::string& id, const Value& value, sweep_guard_core::Rules<
 }  // namespace
 
 void readWorkpieces(ParameterReader& read, Parameters& parameters) {
-  const auto rules = read.groupsByName(
-      "workpieces",
-      {{"open"},
-       {"padding", ParameterRange{0.0, 1.0, "m"}},
-       {"timeout", ParameterRange{0.01, sweep_guard_core::kInfinity, "s"}}},
-      "Rules by id, `'*'` for all others: `{curtain: {open: true}, '*': {timeout: 0.2}}`. open: the surface has no "
-      "inside, which is not tested or reported (INSIDE_UNTESTED). padding: it counts as nearer by this; the depth of "
-      "an intention counts from there. timeout: replaces timing/mesh_timeout.");
+  const auto rules =
+      read.groupsByName("workpieces",
+                        {{"open"},
+                         {"padding", ParameterRange{0.0, 1.0, "m"}},
+                         {"timeout", ParameterRange{0.01, sweep_guard_core::kInfinity, "s"}}},
+                        "Rules by id, `'*'` for all others: `{curtain: {open: true}, '*': {timeout: 0.2}}`. open: the "
+                        "surface has no inside. padding: it counts as nearer by this; the depth of "
+                        "an intention counts from there. timeout: replaces timing/mesh_timeout.");
   for (const auto& [id, rule] : rules) {
     if (id != "*") parameters.ruled_ids.insert(id);
     if (const auto open = rule.find("open"); open != rule.end()) addRule(id, open->second != 0.0, parameters.sheets);
