@@ -39,7 +39,7 @@ std::string shortText(double value) {
 std::string sizeInWords(const Placed& placed) {
   const auto& [workpiece, size, distance] = placed;
   const std::string box = shortText(size.x()) + " x " + shortText(size.y()) + " x " + shortText(size.z()) + " m, ";
-  const std::string text = box + (distance.now ? shortText(*distance.now) + " m from the tool"
+  const std::string text = box + (distance.now ? "at least " + shortText(*distance.now) + " m from the tool"
                                                : std::string("distance from the tool not known"));
   return distance.least ? text + ", nearest so far " + shortText(*distance.least) + " m" : text;
 }

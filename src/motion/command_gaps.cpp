@@ -52,7 +52,7 @@ std::string CommandGaps::tooOld(const Instant& now) const {
   const bool came_late = 2 * (age - waited) > timeout_;
   std::string rare = came_late ? "" : rarity(now.steady);
   if (!rare.empty()) return rare;
-  return (came_late ? "the stamp of the newest command is " : "the newest command is ") + secondsText(age) +
+  return (came_late ? "the stamp of the newest command is " : "no command: the newest is ") + secondsText(age) +
          " old, and " + parameter_ + " is " + secondsText(timeout_) +
          (came_late ? ": clocks differ, or commands wait on their way" : "");
 }

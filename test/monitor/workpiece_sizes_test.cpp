@@ -20,7 +20,7 @@ TEST(WorkpieceSizesTest, AreGivenWithTheDistanceOfTheTool) {
   const auto sizes = workpieceSizes(workpieces, distances);
   ASSERT_EQ(sizes.size(), 2U);
   EXPECT_EQ(sizes[0].first, "liver");
-  EXPECT_EQ(sizes[0].second, "0.15 x 0.3 x 0.075 m, 0.412 m from the tool, nearest so far 0.0513 m");
+  EXPECT_EQ(sizes[0].second, "0.15 x 0.3 x 0.075 m, at least 0.412 m from the tool, nearest so far 0.0513 m");
   EXPECT_EQ(sizes[1].second, "0.05 x 0.1 x 0.025 m, distance from the tool not known");
   EXPECT_EQ(doubtfulSizes(workpieces, distances), "");
 }

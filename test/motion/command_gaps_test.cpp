@@ -54,7 +54,7 @@ TEST(CommandGapsTest, CommandsThatHaveStoppedAreNotSlow) {
 TEST(CommandGapsTest, SaysWhyTheNewestCommandIsTooOld) {
   CommandGaps gaps(milliseconds(100), "command_timeout");
   gaps.received(received(0));
-  EXPECT_EQ(gaps.tooOld(at(120)), "the newest command is 0.12 s old, and command_timeout is 0.1 s");
+  EXPECT_EQ(gaps.tooOld(at(120)), "no command: the newest is 0.12 s old, and command_timeout is 0.1 s");
   gaps.received({at(130).stamp - milliseconds(3200), at(130).steady});
   EXPECT_EQ(
       gaps.tooOld(at(130)),

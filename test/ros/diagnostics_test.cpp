@@ -125,7 +125,7 @@ TEST_F(DiagnosticsTest, SayHowLargeWorkpiecesAreAndHowFarTheToolIs) {
   };
   placeSquare("square", {0.0, 0.0, -1.0});
   moveTo({0.0, 0.0, 0.5});
-  awaitValue("workpieces", "size of 'square'", "0.2 x 0.2 x 0 m, 1.5 m from the tool, nearest so far 1.5 m");
+  awaitValue("workpieces", "size of 'square'", "0.2 x 0.2 x 0 m, at least 1.5 m from the tool, nearest so far 1.5 m");
   placeSquare("mesh in mm", {0.0, 0.0, -1.0}, "world", 100.0);
   moveTo({0.0, 0.0, 0.5});
   probe().awaitStatus("workpieces", doubts("'mesh in mm' is 200 m long: is its mesh in millimeters?"));

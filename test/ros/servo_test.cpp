@@ -61,6 +61,13 @@ class ServoTest : public DropInTest {
   Listener<JointTrajectory> controller_{"joint_group_velocity_controller/command"};
 };
 
+TEST_F(ServoTest, WithoutArgumentsTheLagIsThatOfTheConfigurationAndBeforeServoThatOfARobotNotZero) {
+  EXPECT_DOUBLE_EQ(ros::param::param("links_motion_guard/lag/dead_time", 0.0), 0.01);
+  EXPECT_DOUBLE_EQ(ros::param::param("links_motion_guard/lag/time_constant", 0.0), 0.04);
+  EXPECT_DOUBLE_EQ(ros::param::param("motion_guard/lag/dead_time", 0.0), 0.028);
+  EXPECT_DOUBLE_EQ(ros::param::param("motion_guard/lag/time_constant", 0.0), 0.038);
+}
+
 // Both are Servo's own, which looks for self-collisions with them.
 TEST_F(ServoTest, AFreeCommandArrivesUntouchedAndServosScaleAndChecksAreLeftAlone) {
   EXPECT_FALSE(servo_.hearsAScale());

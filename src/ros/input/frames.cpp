@@ -280,12 +280,13 @@ std::optional<sweep_guard_core::Time> Frames::newest(const std::string& target, 
 FrameError Frames::noTransform(const std::string& target, const std::string& source, const std::string& why) const {
   const std::set<std::string> frames = tree_.between(withoutSlash(target), withoutSlash(source));
   const std::string refused = refused_.find([&](const std::string& child) { return frames.count(child) != 0; });
-  std::string reason = printable(why, kMaxReason);
+  std::string absent;
   for (const std::string& frame : {target, source}) {
-    if (!buffer_.has(withoutSlash(frame))) reason = "tf has no frame '" + printable(frame) + "'";
+    if (!buffer_.has(withoutSlash(frame)))
+      absent += (absent.empty() ? "tf has no frame '" : " and no frame '") + printable(frame) + "'";
   }
-  return FrameError("no transform from '" + printable(source) + "' to '" + printable(target) + "': " + reason +
-                    (refused.empty() ? "" : ": " + refused));
+  return FrameError("no transform from '" + printable(source) + "' to '" + printable(target) + "': " +
+                    (absent.empty() ? printable(why, kMaxReason) : absent) + (refused.empty() ? "" : ": " + refused));
 }
 
 }  // namespace sweep_guard_ros

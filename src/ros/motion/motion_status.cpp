@@ -38,7 +38,7 @@ std::int8_t codeOf(const GuardedMotion& motion) {
 }
 
 std::string nearestText(const MotionStatus& status) {
-  if (status.mesh_id.empty()) return "a surface that no plane stands for";
+  if (status.mesh_id.empty()) return "a surface that no plane stands for, as one beyond the guard's proximity/reach";
   char gap[32];
   std::snprintf(gap, sizeof gap, "%.1f mm %s", 1e3 * std::abs(status.gap), status.gap < 0.0 ? "inside" : "in front");
   const std::string link = status.tool_link.empty() ? "" : " of link '" + status.tool_link + "'";

@@ -200,7 +200,7 @@ YAML::Node load(const std::string& scene) {
   if (isText(scene)) return YAML::Load(scene);
   std::error_code error;
   if (std::filesystem::file_size(scene, error) > kMaxSceneFile || error)
-    throw InvalidInput(error ? error.message() + ": give an absolute path"
+    throw InvalidInput(error ? error.message() + (path(scene).is_absolute() ? "" : ": give an absolute path")
                              : "larger than 1 MiB: describe the workpieces in mesh files");
   return YAML::LoadFile(scene);
 }
