@@ -125,6 +125,13 @@ TEST(CommandedMotionTest, CountsOnceCommandsHaveComeForASecond) {
   EXPECT_FALSE(toldUntil(5.0, {}).usesCommand());
 }
 
+TEST(CommandedMotionTest, ItMayComeMoreSeldomThanThePoses) {
+  const auto at_5_hz = [](double t) {
+    return std::lround(t / kPosePeriod) % 20 == 0 ? poseCommand(t) : SentCommand{at(t), CommandedJoints{}};
+  };
+  EXPECT_TRUE(toldUntil(5.0, at_5_hz).usesCommand());
+}
+
 TEST(CommandedMotionTest, SilentForThreePeriodsItIsForgottenForASecond) {
   const auto until_5 = [](double t) { return t < 5.0 ? poseCommand(t) : SentCommand{at(t), CommandedJoints{}}; };
   EXPECT_TRUE(toldUntil(5.025, until_5).usesCommand());
