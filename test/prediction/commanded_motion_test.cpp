@@ -101,7 +101,7 @@ TEST(CommandedMotionTest, ThePoseSentIsWhereTheToolWillBeAfterDeadTimeAndLag) {
 }
 
 TEST(CommandedMotionTest, ADistanceThatStaysBetweenPosesSentAndMeasuredIsNoMotion) {
-  for (const double ahead : {0.1, 0.2, 0.5, 1.0})
+  for (const double ahead : {0.1, 0.5})
     EXPECT_LT(meanError(ahead, poseOfAnotherTip), 1.03 * meanError(ahead, poseCommand));
 }
 
