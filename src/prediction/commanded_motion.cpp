@@ -3,7 +3,8 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr Duration kLeadTime = std::chrono::milliseconds(100);
+using std::chrono::milliseconds;
+
 constexpr Duration kDistrust = std::chrono::seconds(1);
 constexpr int kMaxMisled = 3;  // samples in a row
 
@@ -11,13 +12,16 @@ constexpr int kMaxMisled = 3;  // samples in a row
 
 template <typename Space>
 CommandedMotion<Space>::CommandedMotion(const Space& space, const std::shared_ptr<LearnedMotion<Space>>& learned)
-    : commands_(space), learner_({learned, &learned->commanded}), errors_(space) {}
+    : commands_(space),
+      windows_{Velocity<Space>(milliseconds(20)), Velocity<Space>(milliseconds(50)), Velocity<Space>(milliseconds(100)),
+               Velocity<Space>(milliseconds(200))},
+      learner_({learned, &learned->commanded}),
+      errors_(space) {}
 
 template <typename Space>
 void CommandedMotion<Space>::command(const Sample& wanted) {
   rate_.reset();
-  begin(commands_.add(wanted));
-  velocity_.observe(commands_);
+  add(wanted);
 }
 
 template <typename Space>
@@ -26,14 +30,13 @@ void CommandedMotion<Space>::command(Time stamp, const Vector& velocity) {
   if (rate_) wanted = Space::displacedSample(wanted, toSeconds(stamp - wanted.stamp) * *rate_);
   wanted.stamp = stamp;
   rate_ = commands_.space().limitedTo(velocity, 1.0);
-  begin(commands_.add(wanted));
+  add(wanted);
 }
 
 template <typename Space>
-void CommandedMotion<Space>::begin(typename MotionTracker<Space>::Step step) {
-  if (step != MotionTracker<Space>::Step::kBegins) return;
-  leads_.clear();
-  unused_until_ = commands_.newest().stamp + kDistrust;
+void CommandedMotion<Space>::add(const Sample& wanted) {
+  if (commands_.add(wanted) == MotionTracker<Space>::Step::kBegins) unused_until_ = wanted.stamp + kDistrust;
+  for (Velocity<Space>& window : windows_) window.observe(commands_);
 }
 
 template <typename Space>
@@ -51,7 +54,10 @@ void CommandedMotion<Space>::observe(const MotionTracker<Space>& measured, const
   newest_ = measured.newest();
   if (commands_.isSilentAt(newest_.stamp)) return interrupt();
   Regressors<Space, kCommandRegressors> all;
-  all << regressors, lead(measured), rate_ ? *rate_ : velocity_.value();
+  all.template leftCols<kRegressors>() = regressors;
+  for (size_t i = 0; i < windows_.size(); ++i)
+    all.col(kRegressors + static_cast<Eigen::Index>(i)) = velocityWithin(windows_[i]);
+  if (rate_) all.col(kRegressors) = *rate_;
   learner_.observe(measured, all);
   PredictedDisplacements<Space> predicted;
   for (size_t i = 0; i < predicted.size(); ++i) predicted[i] = displacementIn(kLearnedHorizons[i]);
@@ -61,21 +67,10 @@ void CommandedMotion<Space>::observe(const MotionTracker<Space>& measured, const
   in_use_ = newest_.stamp >= unused_until_;
 }
 
+// A pose that is sent may be that of another tool. Velocities that are sent turn about the axes of the measured one.
 template <typename Space>
-typename Space::Vector CommandedMotion<Space>::lead(const MotionTracker<Space>& measured) {
-  const Vector ahead = rate_ ? leadOfVelocities(measured) : Space::displacementOf(newest_, commands_.newest());
-  return commands_.space().limitedTo(ahead / toSeconds(kLeadTime), 1.0);
-}
-
-template <typename Space>
-typename Space::Vector CommandedMotion<Space>::leadOfVelocities(const MotionTracker<Space>& measured) {
-  if (measured.step() == MotionTracker<Space>::Step::kBegins) leads_.clear();
-  const double since = toSeconds(newest_.stamp - commands_.newest().stamp);
-  const Vector ahead = commands_.coordinates() + since * *rate_ - measured.coordinates();
-  while (leads_.size() > 1 && leads_[1].stamp <= newest_.stamp - kLeadTime) leads_.pop_front();
-  if (leads_.full()) leads_.set_capacity(2 * leads_.capacity());
-  leads_.push_back({newest_.stamp, ahead});
-  return ahead - leads_.front().ahead;
+typename Space::Vector CommandedMotion<Space>::velocityWithin(const Velocity<Space>& window) const {
+  return rate_ ? window.value() : Space::velocityAs(newest_, commands_.newest(), window.value());
 }
 
 template class CommandedMotion<PoseSpace>;

@@ -1,11 +1,11 @@
 #pragma once
 
 // Idea: what goes to a robot is known before the robot has carried it out. The displacement is regressed on the velocities
-// of `direct` and on two more: how far the command is ahead of the measured motion, and the velocity of the command. The
-// weights of each horizon learn dead time and lag. Invariant: the command is in use only while it comes, and while the
-// motion within 0.1 s is what it predicted.
+// of `direct` and on those of the command, over windows of its last 0.2 s. The weights of each horizon learn dead time and
+// lag; a distance that stays between what is commanded and measured is no motion. Invariant: the command is in use only
+// while it comes, and while the motion within 0.1 s is what it predicted.
 
-#include <boost/circular_buffer.hpp>
+#include <array>
 #include <memory>
 #include <optional>
 
@@ -55,20 +55,12 @@ class CommandedMotion {
   typename ErrorModel<Space>::Covariance covariance(double ahead) const { return errors_.covariance(ahead); }
 
  private:
-  // How far commanded velocities have led ahead of the measured motion until a time.
-  struct Lead {
-    Time stamp;
-    Vector ahead;
-  };
-
-  void begin(typename MotionTracker<Space>::Step step);
-  Vector lead(const MotionTracker<Space>& measured);
-  Vector leadOfVelocities(const MotionTracker<Space>& measured);
+  void add(const Sample& wanted);
+  Vector velocityWithin(const Velocity<Space>& window) const;
 
   MotionTracker<Space> commands_;
-  Velocity<Space> velocity_{std::chrono::milliseconds(50)};  // of commanded positions
-  std::optional<Vector> rate_;                               // commanded; empty: positions are
-  boost::circular_buffer<Lead> leads_{64};                   // of the last 0.1 s
+  std::array<Velocity<Space>, kCommandRegressors - kRegressors> windows_;  // the shortest first
+  std::optional<Vector> rate_;                                             // commanded; empty: positions are
   DisplacementLearner<Space, kCommandRegressors> learner_;
   ErrorModel<Space> errors_;
   Sample newest_;   // measured

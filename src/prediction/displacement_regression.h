@@ -9,7 +9,7 @@ namespace sweep_guard_core {
 
 /// Number of velocities of the measured motion that a displacement is regressed on, and of these and those of a command.
 constexpr int kRegressors = 8;
-constexpr int kCommandRegressors = kRegressors + 2;
+constexpr int kCommandRegressors = kRegressors + 4;
 
 /// Learns the displacement of a tool or a joint within one horizon from the operator's velocities. A recursive least squares fit
 /// regresses the displacement on the velocities before it, with coefficients that its axes share; outliers have

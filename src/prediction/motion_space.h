@@ -55,6 +55,11 @@ struct PoseSpace {
   static Sample displacedSample(const Sample& from, const Vector& moved) {
     return {from.stamp, displaced(from.X_WT, moved)};
   }
+  /// Returns a velocity of one sample as that of another: turning about the axes of the other tool.
+  static Vector velocityAs(const Sample& other, const Sample& one, Vector velocity) {
+    velocity.tail<3>() = other.X_WT.linear().transpose() * (one.X_WT.linear() * velocity.tail<3>());
+    return velocity;
+  }
   /// Returns the speeds from which on motion counts in full: of translation [m/s], of rotation [rad/s].
   using Speeds = Eigen::Array2d;  ///< of each group
   static Speeds priorSpeeds() { return {0.02, 0.15}; }
@@ -93,6 +98,7 @@ struct JointSpace {
 
   static Vector displacementOf(const Sample& from, const Sample& to) { return Vector(to.value - from.value); }
   static Sample displacedSample(const Sample& from, const Vector& moved) { return {from.stamp, from.value + moved[0]}; }
+  static Vector velocityAs(const Sample& /*other*/, const Sample& /*one*/, const Vector& velocity) { return velocity; }
   using Speeds = Eigen::Array<double, 1, 1>;
   Speeds priorSpeeds() const { return Speeds(prior_speed); }
   bool exceeds(const Vector& moved, double seconds) const { return std::abs(moved[0]) > max_speed * seconds; }

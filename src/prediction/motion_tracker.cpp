@@ -49,7 +49,9 @@ void MotionTracker<Space>::notePeriod(double seconds) {
 
 template <typename Space>
 bool MotionTracker<Space>::isSilentAt(Time stamp) const {
-  return samples_ == 0 || stamp - newest_.stamp > std::max<Duration>(kSpan, fromSeconds(3 * longest_period_));
+  if (samples_ == 0) return true;
+  const Duration longest = samples_ == 1 ? kMaxGap : std::max<Duration>(kSpan, fromSeconds(3 * longest_period_));
+  return stamp - newest_.stamp > longest;
 }
 
 // Half a period: regular samples are farther apart, whatever their jitter.

@@ -35,7 +35,8 @@ class MotionTracker {
   const Sample& newest() const { return newest_; }  ///< there must be one
   Duration period() const { return period_; }       ///< from the previous sample to the newest
 
-  /// Returns whether there is no sample, or the newest one is three periods old, at least 20 ms: the longest period lately.
+  /// Returns whether there is no sample, or the newest one is three periods old, at least 20 ms: the longest period lately. A
+  /// sample that is the only one is so after 1 s.
   bool isSilentAt(Time stamp) const;
 
   /// Returns coordinates of the newest sample that never wrap. Of a pose: translation in W [m], then the rotations about

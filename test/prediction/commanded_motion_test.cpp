@@ -55,6 +55,13 @@ SentCommand twistOfTool(double t) {
   return command;
 }
 
+// Of another tip: it stays 20 mm and 5 degrees away from the one that is measured.
+SentCommand poseOfAnotherTip(double t) {
+  const Eigen::Isometry3d X_WT = poseOf(wantedAt(t));
+  const Eigen::AngleAxisd turn(5.0 / 180.0 * M_PI, Eigen::Vector3d::UnitY());
+  return {at(t), Eigen::Translation3d(0.012, 0.0, 0.016) * X_WT * turn};
+}
+
 using CommandAt = std::function<SentCommand(double)>;
 
 PosePredictor toldUntil(double end, const CommandAt& command) {
@@ -67,9 +74,10 @@ PosePredictor toldUntil(double end, const CommandAt& command) {
   return predictor;
 }
 
-// Mean distance from where the tool is so long after each pose from second 20 on [m].
+// Mean distance of a tool point from where it is so long after each pose from second 20 on [m].
 double meanError(double ahead, const CommandAt& command) {
   PosePredictor predictor(optionsOf("direct"));
+  const Eigen::Vector3d point(0.0, 0.1, 0.0);
   Plant plant;
   Plant later;
   PredictedPath path;
@@ -78,10 +86,10 @@ double meanError(double ahead, const CommandAt& command) {
   for (int i = 0; i < 3000; ++i) {
     if (command) predictor.command(command(i * kPosePeriod));
     predictor.observe({at(i * kPosePeriod), poseOf(plant.at(i * kPosePeriod))});
-    const Eigen::Vector3d then = poseOf(later.at(i * kPosePeriod + ahead)).translation();
+    const Eigen::Vector3d then = poseOf(later.at(i * kPosePeriod + ahead)) * point;
     predictor.predict({fromSeconds(ahead)}, path);
     if (i < 2000) continue;
-    sum += (path.front().X_WT.translation() - then).norm();
+    sum += (path.front().X_WT * point - then).norm();
     ++count;
   }
   return sum / count;
@@ -90,6 +98,11 @@ double meanError(double ahead, const CommandAt& command) {
 TEST(CommandedMotionTest, ThePoseSentIsWhereTheToolWillBeAfterDeadTimeAndLag) {
   EXPECT_LT(meanError(0.1, poseCommand), 0.15 * meanError(0.1, {}));
   EXPECT_LT(meanError(0.2, poseCommand), 0.6 * meanError(0.2, {}));
+}
+
+TEST(CommandedMotionTest, ADistanceThatStaysBetweenPosesSentAndMeasuredIsNoMotion) {
+  for (const double ahead : {0.1, 0.5})
+    EXPECT_LT(meanError(ahead, poseOfAnotherTip), 1.03 * meanError(ahead, poseCommand));
 }
 
 TEST(CommandedMotionTest, ATwistSentIsHowItWillMove) {
@@ -110,6 +123,13 @@ TEST(CommandedMotionTest, CountsOnceCommandsHaveComeForASecond) {
   EXPECT_FALSE(toldUntil(0.9, poseCommand).usesCommand());
   EXPECT_TRUE(toldUntil(1.1, poseCommand).usesCommand());
   EXPECT_FALSE(toldUntil(5.0, {}).usesCommand());
+}
+
+TEST(CommandedMotionTest, ItMayComeMoreSeldomThanThePoses) {
+  const auto at_5_hz = [](double t) {
+    return std::lround(t / kPosePeriod) % 20 == 0 ? poseCommand(t) : SentCommand{at(t), CommandedJoints{}};
+  };
+  EXPECT_TRUE(toldUntil(5.0, at_5_hz).usesCommand());
 }
 
 TEST(CommandedMotionTest, SilentForThreePeriodsItIsForgottenForASecond) {
@@ -139,7 +159,7 @@ TEST(CommandedMotionTest, ARobotThatDoesNotDoWhatWasSentEndsItAtOnce) {
   PosePredictor predictor(optionsOf("direct"));
   Plant plant;
   double stopped = 0.0;
-  for (int i = 0; i < 1015; ++i) {
+  for (int i = 0; i < 1025; ++i) {
     const double t = i * kPosePeriod;
     predictor.command(poseCommand(t));
     if (t < 10.0) stopped = plant.at(t);
