@@ -134,6 +134,13 @@ TEST(VelocityLimiterTest, ASurfaceThatComesLeavesZeroAndRetreat) {
   EXPECT_TRUE(isEqual(limit(retreat, facing), retreat));
 }
 
+// The turn closes at 0.7 m/s, of which the translation takes away 0.5 m/s. To rest, the fastest point has 1.2 m/s to lose.
+TEST(VelocityLimiterTest, ATurnThatClosesWhileTheToolGoesAwayBrakesAlongItsPath) {
+  const double closing = limitOf(floorAt(0.12, {0.1, 0.0, 0.0}), {0.5 * Vector3d::UnitZ(), 7.0 * Vector3d::UnitY()});
+  EXPECT_LT(closing, 0.2);
+  EXPECT_NEAR(closing * (0.1 + 0.5 * (closing + 1.0)), 0.12, 1e-12);
+}
+
 TEST(VelocityLimiterTest, ASurfaceThatGoesAwayCountsAsAtRest) {
   const Twist down_W{-0.4 * Vector3d::UnitZ(), Vector3d::Zero()};
   EXPECT_EQ(limitOf(floorAt(0.04, Vector3d::Zero(), -1.0), down_W), limitOf(floorAt(0.04), down_W));
@@ -191,6 +198,24 @@ TEST(VelocityLimiterTest, ACommandThatOpensEveryGapUntilRestIsPassedOnBitForBit)
     ASSERT_TRUE(isEqual(limit(scene), scene.command_W)) << "case " << i;
   }
   EXPECT_GT(balls, 0U);
+}
+
+// So there is a plane to name wherever planes change a command.
+TEST(VelocityLimiterTest, ACommandThatNoRowForbidsIsPassedOnBitForBit) {
+  RandomScenes random(9);
+  size_t passed = 0;
+  for (std::uint64_t i = 0, cases = caseCount(5000); i < cases; ++i) {
+    MotionScene scene = random.scene();
+    scene.uncovered = {};
+    const bool forbidden = std::any_of(scene.facing.begin(), scene.facing.end(), [&](const FacingBall& ball) {
+      const ClosingRow row(ball, scene.command_W, scene.limits);
+      return row.closing(scene.command_W.v_W, 1.0) > row.limit;
+    });
+    if (forbidden) continue;
+    ASSERT_TRUE(isEqual(limit(scene), scene.command_W)) << "case " << i;
+    ++passed;
+  }
+  EXPECT_GT(passed, 10U);
 }
 
 TEST(VelocityLimiterTest, FreeMotionIsPassedOnBitForBit) {
