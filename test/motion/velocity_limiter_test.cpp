@@ -200,24 +200,6 @@ TEST(VelocityLimiterTest, ACommandThatOpensEveryGapUntilRestIsPassedOnBitForBit)
   EXPECT_GT(balls, 0U);
 }
 
-// So there is a plane to name wherever planes change a command.
-TEST(VelocityLimiterTest, ACommandThatNoRowForbidsIsPassedOnBitForBit) {
-  RandomScenes random(9);
-  size_t passed = 0;
-  for (std::uint64_t i = 0, cases = caseCount(5000); i < cases; ++i) {
-    MotionScene scene = random.scene();
-    scene.uncovered = {};
-    const bool forbidden = std::any_of(scene.facing.begin(), scene.facing.end(), [&](const FacingBall& ball) {
-      const ClosingRow row(ball, scene.command_W, scene.limits);
-      return row.closing(scene.command_W.v_W, 1.0) > row.limit;
-    });
-    if (forbidden) continue;
-    ASSERT_TRUE(isEqual(limit(scene), scene.command_W)) << "case " << i;
-    ++passed;
-  }
-  EXPECT_GT(passed, 10U);
-}
-
 TEST(VelocityLimiterTest, FreeMotionIsPassedOnBitForBit) {
   RandomScenes random(6);
   for (std::uint64_t i = 0, cases = caseCount(50000); i < cases; ++i) {
