@@ -36,8 +36,9 @@ double timeUntilClosed(double gap, double closing, double acceleration) {
   return acceleration > 0.0 ? (root - closing) / acceleration : std::numeric_limits<double>::infinity();
 }
 
-bool opens(double surface_speed, double closing, double acceleration, const BrakingLimits& limits) {
-  return closing + std::max(0.0, surface_speed) + 0.5 * acceleration * limits.reaction_time < 0.0;
+bool opens(double surface_speed, double closing, double acceleration, const StopOnPath& stop, double share) {
+  const double way = stop.way(share);
+  return (closing + 0.5 * acceleration * way) * way + std::max(0.0, surface_speed) * stop.untilRest(share) < 0.0;
 }
 
 double closingSpeed(const FacingBall& ball, const Twist& twist_W) {

@@ -17,7 +17,6 @@ constexpr double kJointRounding = 1e-11;  // of a closing speed, in commanded sp
 constexpr int kMostSteps = 32;            // along the way of a command
 constexpr double kLeastStep = 1e-4;       // of the way so far
 constexpr double kLeastWay = 1e-6;        // of all of it
-constexpr double kShorterWay = 4.0;       // in what lasts for sure
 constexpr size_t kMostSamples = 64;       // of the speeds on that way
 constexpr double kLeastSample = 0.02;     // between two of them, of the way
 constexpr double kMostSample = 0.25;
@@ -48,7 +47,8 @@ void forEachMovingBall(const PlaneSet& planes, const ToolBalls& tool, const Movi
     const size_t piece = planes.planes[i].piece;
     const size_t first = state.pieces()[piece].first_ball;
     for (size_t ball = first; ball < first + tool.pieces[piece].size(); ++ball) {
-      if (state.balls()[ball].speed > 0.0) visit(i, ball);
+      const MovingTool::Ball& moving = state.balls()[ball];
+      if (moving.speed > 0.0 || moving.acceleration > 0.0) visit(i, ball);
     }
   }
 }
@@ -185,21 +185,17 @@ void JointMotionGuard::limit(const MotionInputs& inputs, const MeasuredJoints& j
   if (motion.decision.cause == PermissionCause::kUnseen) allowed = std::min(allowed, options_.unseen_speed);
   motion.scale = std::min(fastest > allowed ? allowed / fastest : 1.0, way < stop.way(1.0) ? shareWithin(way) : 1.0);
 
-  // Bounds are wide over a way that is long: where the walk has ended too early, it begins again on a shorter one.
   const auto limit_from = [&](const RobotState& from, MovingTool& tool) {
-    for (const double longer : {kShorterWay, kShorterWay, kShorterWay, 1.0}) {
-      const auto [time, row, is_near] = lasting(inputs, from, tool, command, limits, stops_.back().stop, motion.scale);
-      if (!row) return;
-      const SeparatingPlane& plane = inputs.planes->planes[row->plane];
-      motion.scale = std::min(motion.scale, shareWithin(is_near ? time : longer * time));
-      const double closing = std::max(0.0, closingOf(plane, tool.balls()[row->ball]));
-      motion.limiting = GuardedMotion::Limiting{row->plane, plane.normal_W, row->first_gap, motion.scale * closing};
-      if (is_near) return;
-    }
+    const auto [time, row] = lasting(inputs, from, tool, command, limits, motion.scale);
+    if (!row) return;
+    const SeparatingPlane& plane = inputs.planes->planes[row->plane];
+    motion.scale = std::min(motion.scale, shareWithin(time));
+    const double closing = std::max(0.0, closingOf(plane, tool.balls()[row->ball]));
+    motion.limiting = GuardedMotion::Limiting{row->plane, plane.normal_W, row->first_gap, motion.scale * closing};
   };
   limit_from(expected_state_, expected_);
   limit_from(joints.state, measured_);
-  if (escapes) stopUnlessEveryGapOpens(inputs, command, limits, motion);
+  if (escapes) stopUnlessEveryGapOpens(inputs, command, motion);
   motion.sent_speed = motion.scale * motion.commanded_speed;
 }
 
@@ -208,7 +204,11 @@ void JointMotionGuard::limit(const MotionInputs& inputs, const MeasuredJoints& j
 // turn rates: a hundredth.
 void JointMotionGuard::sampleSpeeds(const MotionInputs& inputs, const JointCommand& command,
                                     const BrakingLimits& limits) {
-  const double turn_rate = command.velocities.lpNorm<1>();
+  double turn_rate = 0.0;
+  for (const TreeLink& joint : tree_->links()) {
+    if (joint.moves())
+      turn_rate += std::abs(joint.multiplier * command.velocities[static_cast<Eigen::Index>(joint.variable)]);
+  }
   stops_.assign(
       1, {{limits.reaction_time, std::max(measured_.fastest(), expected_.fastest()) / limits.deceleration}, 0.0});
   while (stops_.size() < kMostSamples && stops_.back().way < stops_.back().stop.way(1.0)) {
@@ -245,12 +245,13 @@ UncoveredSurfaces JointMotionGuard::uncovered(const MotionInputs& inputs) const 
 // seen no more.
 JointMotionGuard::Lasting JointMotionGuard::lasting(const MotionInputs& inputs, const RobotState& from,
                                                     MovingTool& tool, const JointCommand& command,
-                                                    const BrakingLimits& limits, const StopOnPath& stop, double scale) {
+                                                    const BrakingLimits& limits, double scale) {
+  const StopOnPath& stop = stops_.back().stop;
   const double way = stop.way(scale);
   const double tolerance = kJointRounding * stop.braking_time * limits.deceleration;
   tool.boundAccelerations(*inputs.tool, command.velocities, way);
   collectRows(inputs, tool, limits, stop, way);
-  Lasting lasts{0.0, {}, false};
+  Lasting lasts{0.0, {}};
   for (int step = 0; step < kMostSteps; ++step) {
     if (step > 0) moveRowsOn(inputs, from, command, lasts.time);
     const double left = way - lasts.time;
@@ -267,10 +268,9 @@ JointMotionGuard::Lasting JointMotionGuard::lasting(const MotionInputs& inputs, 
       return false;
     };
     rows_.erase(std::remove_if(rows_.begin(), rows_.end(), lasts_to_the_end), rows_.end());
-    if (rows_.empty()) return {way, {}, true};
+    if (rows_.empty()) return {way, {}};
     lasts.time += least;
-    lasts.is_near = least < kLeastStep * std::max(lasts.time, kLeastWay * way) && lasts.row->closing > 0.0;
-    if (lasts.is_near) break;
+    if (least < kLeastStep * std::max(lasts.time, kLeastWay * way) && lasts.row->closing > -tolerance) break;
   }
   return lasts;
 }
@@ -312,15 +312,16 @@ void JointMotionGuard::moveRowsOn(const MotionInputs& inputs, const RobotState& 
 }
 
 void JointMotionGuard::stopUnlessEveryGapOpens(const MotionInputs& inputs, const JointCommand& command,
-                                               const BrakingLimits& limits, GuardedMotion& motion) {
+                                               GuardedMotion& motion) {
+  const StopOnPath& stop = stops_.back().stop;
   const double scale = motion.scale;
   for (MovingTool* const state : {&expected_, &measured_}) {
-    state->boundAccelerations(*inputs.tool, command.velocities, limits.reaction_time);
+    state->boundAccelerations(*inputs.tool, command.velocities, stop.way(scale));
     forEachMovingBall(*inputs.planes, *inputs.tool, *state, [&](size_t plane_index, size_t ball_index) {
       const SeparatingPlane& plane = inputs.planes->planes[plane_index];
       const MovingTool::Ball& ball = state->balls()[ball_index];
-      const double closing = scale * closingOf(plane, ball);
-      if (motion.scale == 0.0 || opens(plane.surface_speed, closing, scale * scale * ball.acceleration, limits)) return;
+      if (motion.scale == 0.0 || opens(plane.surface_speed, closingOf(plane, ball), ball.acceleration, stop, scale))
+        return;
       motion.scale = 0.0;
       motion.limiting = GuardedMotion::Limiting{plane_index, plane.normal_W, gapOf(plane, ball), 0.0};
     });

@@ -22,9 +22,9 @@ ClosingRow::ClosingRow(const FacingBall& ball, const Twist& command_W, const Bra
       distance(ball.gap - limits.standoff),
       surface_speed(std::max(0.0, ball.surface_speed)) {
   const double per_speed = 0.5 / limits.deceleration;
-  const double sliding = (command_W.v_W - std::min(0.0, normal_W.dot(command_W.v_W)) * normal_W).norm();
-  const double turning_on = limits.tool_radius * command_W.w_W.norm() - std::max(0.0, turning);
-  const double beside = sliding + std::max(0.0, turning_on);
+  const Eigen::Vector3d sliding_W = command_W.v_W - std::min(0.0, normal_W.dot(command_W.v_W)) * normal_W;
+  const double turning_on = std::max(0.0, limits.tool_radius * command_W.w_W.norm() - turning);
+  const double beside = sliding_W.norm() + normal_W.dot(sliding_W) + turning_on;
   BrakingLimits along_path = limits;
   along_path.reaction_time += beside * per_speed;
   limit = std::max(0.0, stoppingSpeed(distance - surface_speed * beside * per_speed, along_path) - surface_speed);
@@ -46,9 +46,7 @@ Twist VelocityLimiter::limit(const Twist& command_W, const std::vector<FacingBal
   const double allowed = allowedSpeed(uncovered, limits);
   const double fastest = fastestPoint(command_W, limits.tool_radius);
   const double exact = kCommandRounding * fastest;
-  if (fastest <= allowed && largestScale(command_W.v_W, 1.0, exact) == 1.0 &&
-      stoppingScale(command_W, 1.0, limits, exact) == 1.0)
-    return command_W;
+  if (fastest <= allowed && largestScale(command_W.v_W, 1.0, exact) == 1.0) return command_W;
 
   const Eigen::Vector4d motion = nearest(command_W);
   const double s = motion[3];
@@ -136,8 +134,9 @@ Twist escapeVelocity(const Twist& command_W, const std::vector<FacingBall>& faci
   const double scale = fastest > allowed ? allowed / fastest : 1.0;
   const Twist escape_W{scale * command_W.v_W, scale * command_W.w_W};
   const double acceleration = limits.tool_radius * escape_W.w_W.squaredNorm();
+  const StopOnPath stop{limits.reaction_time, fastestPoint(escape_W, limits.tool_radius) / limits.deceleration};
   const bool all_grow = std::all_of(facing.begin(), facing.end(), [&](const FacingBall& ball) {
-    return opens(ball.surface_speed, closingSpeed(ball, escape_W), acceleration, limits);
+    return opens(ball.surface_speed, closingSpeed(ball, escape_W), acceleration, stop, 1.0);
   });
   return all_grow ? escape_W : Twist{};
 }

@@ -45,6 +45,14 @@ TEST(EscapeVelocityTest, CountsTheSurfaceAndTheTurn) {
   EXPECT_FALSE(isZero(escape(turning, {floorAt(0.001, {-0.1, 0.0, 0.0})})));
 }
 
+// The tip rises at first, and its arc leads it down again before the tool is at rest.
+TEST(EscapeVelocityTest, LeadsAwayUntilTheToolIsAtRest) {
+  const FacingBall tip = floorAt(0.001, {0.0, 0.0, 0.1});
+  EXPECT_TRUE(isZero(escape({{0.0, 0.0, 0.04}, {0.0, 2.5, 0.0}}, {tip}, 0.5)));
+  EXPECT_FALSE(isZero(escape({{0.0, 0.0, 0.04}, {0.0, 1.0, 0.0}}, {tip}, 0.5)));
+  EXPECT_TRUE(isZero(escape({{0.0, 0.0, 0.05}, Vector3d::Zero()}, {floorAt(0.001, Vector3d::Zero(), 0.049)}, 0.5)));
+}
+
 TEST(EscapeVelocityTest, CanStopBeforeWhatNoPlaneStandsFor) {
   const Twist up{{0.0, 0.0, 0.01}, Vector3d::Zero()};
   const Twist output_W = escapeVelocity(up, {}, {0.001, 0.0}, kLimits, kEscapeSpeed);

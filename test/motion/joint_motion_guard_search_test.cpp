@@ -296,6 +296,36 @@ TEST(JointMotionGuardSearchTest, AnArmWithDelaysAndLimitedBrakingDoesNotPassTheS
   EXPECT_GT(came, 5);
 }
 
+// The tip turns nine times as fast as the joint that is commanded, in the other sense, so that its speed changes on the way.
+TEST(JointMotionGuardSearchTest, SpeedsOnTheWayAreSampledByTheTurnsOfJointsThatMimic) {
+  TreeLink arm_link;
+  arm_link.name = "arm";
+  arm_link.joint = "arm_joint";
+  arm_link.type = JointType::kRevolute;
+  TreeLink tip = arm_link;
+  tip.name = "tip";
+  tip.joint = "tip_joint";
+  tip.multiplier = -10.0;
+  tip.parent = 0;
+  tip.X_PJ.translation().x() = 0.9;
+  ArmCase arm;
+  arm.tree = std::make_shared<const KinematicTree>(KinematicTree({JointVariable{"arm_joint"}}, {arm_link, tip}));
+  arm.inputs.tool = std::make_shared<const ToolBalls>(ToolBalls{1, {{{0.1 * Vector3d::UnitX(), 0.0}}}, {"tip"}});
+  arm.inputs.warning = MotionInputs::GuardWarning{WarningLevel::kClear, 0, at(1000).steady};
+  const double allowed = stoppingSpeed(0.05, {1.0, 0.01, 0.002, 0.0});
+  for (double speed = 0.3; speed < 1.5; speed += 0.1) {
+    for (double first = 0.0; first < 0.6; first += 0.1) {
+      arm.joints = {{Eigen::Isometry3d::Identity(), {first}}, received(1000)};
+      arm.command = {Eigen::VectorXd::Constant(1, speed), received(1000), milliseconds(10)};
+      PlaneSet planes{received(1000), at(1150).stamp, true, 1, {}, {0.052, 0.0}, {}, {"arm_joint"}, {first}};
+      planes.X_WT = Eigen::Isometry3d::Identity();
+      arm.inputs.planes = std::make_shared<const PlaneSet>(planes);
+      const StopOnPath stop = stopFrom(arm, arm.joints.state, 0.0, {1.0, 0.01, 0.002, 0.0}, 1.0);
+      EXPECT_LE(guardOnce(arm).scale * stop.braking_time, 1.02 * allowed) << speed << " rad/s, " << first << " rad";
+    }
+  }
+}
+
 // A turntable that carries a slide outwards, before a wall: the ball on it is the faster, the farther out it is.
 TEST(JointMotionGuardSearchTest, AnArmThatUnfoldsBrakesByTheSpeedsOnItsWay) {
   TreeLink table;

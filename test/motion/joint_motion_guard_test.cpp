@@ -125,6 +125,39 @@ TEST(JointMotionGuardTest, WhatNoPlaneStandsForBoundsTheFastestPointOfAllLinks) 
   EXPECT_NEAR(guardOnce(arm).scale, stoppingSpeed(0.028, {1.0, 0.01, 0.002, 0.0}), 1e-9);
 }
 
+// Three links in a row, whose last one is at rest for an instant while the elbows leave the line, and then comes back to the base.
+TEST(JointMotionGuardTest, ALinkThatRestsForAnInstantIsLimited) {
+  ArmCase arm = slideAndWheel(1.0);
+  std::vector<JointVariable> joints;
+  std::vector<TreeLink> links;
+  for (size_t i = 0; i < 3; ++i) {
+    TreeLink link;
+    link.name = "link" + std::to_string(i);
+    link.joint = "joint" + std::to_string(i);
+    link.type = JointType::kRevolute;
+    link.variable = i;
+    if (i > 0) {
+      link.parent = i - 1;
+      link.X_PJ.translation().x() = 0.5;
+    }
+    joints.push_back({link.joint});
+    links.push_back(link);
+  }
+  arm.tree = std::make_shared<const KinematicTree>(KinematicTree(joints, links));
+  arm.joints.state.positions = {0.0, 0.0, 0.0};
+  arm.command.velocities = Vector3d(1.0, -2.0, 1.0);
+  arm.inputs.tool = std::make_shared<const ToolBalls>(
+      ToolBalls{1, {{{0.5 * Vector3d::UnitX(), 0.0}}, {{Vector3d::Zero(), 0.01}}}, {"link0", "link2"}});
+  PlaneSet& planes = editable(arm);
+  planes.joints = {"joint0", "joint1", "joint2"};
+  planes.positions = {0.0, 0.0, 0.0};
+  planes.planes = {{1, Vector3d::UnitX(), 0.98 * Vector3d::UnitX(), 0.01, 0.0}};
+  const double share = guardOnce(arm).scale;
+  const double turn = share * (0.01 + share * 0.5 / 2.0);  // [rad] until at rest: an elbow goes at 0.5 m/s
+  EXPECT_LT(share, 1.0);
+  EXPECT_NEAR(std::cos(turn), 0.992, 1e-5);
+}
+
 TEST(JointMotionGuardTest, ALinkWithoutAPlaneCostsNothing) {
   ArmCase arm = slideAndWheel(0.0031);
   arm.command.velocities = Eigen::Vector2d(0.0, 3.0);

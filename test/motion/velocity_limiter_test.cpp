@@ -134,6 +134,13 @@ TEST(VelocityLimiterTest, ASurfaceThatComesLeavesZeroAndRetreat) {
   EXPECT_TRUE(isEqual(limit(retreat, facing), retreat));
 }
 
+// The turn closes at 0.7 m/s, of which the translation takes away 0.5 m/s. To rest, the fastest point has 1.2 m/s to lose.
+TEST(VelocityLimiterTest, ATurnThatClosesWhileTheToolGoesAwayBrakesAlongItsPath) {
+  const double closing = limitOf(floorAt(0.12, {0.1, 0.0, 0.0}), {0.5 * Vector3d::UnitZ(), 7.0 * Vector3d::UnitY()});
+  EXPECT_LT(closing, 0.2);
+  EXPECT_NEAR(closing * (0.1 + 0.5 * (closing + 1.0)), 0.12, 1e-12);
+}
+
 TEST(VelocityLimiterTest, ASurfaceThatGoesAwayCountsAsAtRest) {
   const Twist down_W{-0.4 * Vector3d::UnitZ(), Vector3d::Zero()};
   EXPECT_EQ(limitOf(floorAt(0.04, Vector3d::Zero(), -1.0), down_W), limitOf(floorAt(0.04), down_W));

@@ -56,11 +56,12 @@ struct StopOnPath {
 /// @param acceleration  bound on how fast the closing speed grows [m/s^2], >= 0
 double timeUntilClosed(double gap, double closing, double acceleration);
 
-/// Returns whether a gap grows until the next command although its surface comes and the ball runs along an arc.
+/// Returns whether a gap has grown when the robot is at rest, although its surface comes and the ball runs along an arc.
 /// @param surface_speed  to the ball [m/s]
-/// @param closing        speed by the tool's own motion [m/s]
-/// @param acceleration   bound on that of the ball while the motion goes on as it is [m/s^2], >= 0
-bool opens(double surface_speed, double closing, double acceleration, const BrakingLimits& limits);
+/// @param closing        speed by the whole command [m/s]
+/// @param acceleration   bound on that of the ball by the whole command until rest [m/s^2], >= 0
+/// @param share          of the command that is sent
+bool opens(double surface_speed, double closing, double acceleration, const StopOnPath& stop, double share);
 
 /// Returns how fast the tool's own motion brings a ball closer to its plane [m/s]; negative: the gap grows.
 double closingSpeed(const FacingBall& ball, const Twist& twist_W);

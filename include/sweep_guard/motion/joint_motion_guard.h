@@ -72,7 +72,6 @@ class JointMotionGuard {
   struct Lasting {
     double time;  // [s]
     std::optional<Row> row;
-    bool is_near;  // it lasts hardly longer
   };
 
   void placeExpectedAndSwept(const MotionInputs& inputs, const MeasuredJoints& joints, const JointCommand& command,
@@ -85,13 +84,12 @@ class JointMotionGuard {
   void sampleSpeeds(const MotionInputs& inputs, const JointCommand& command, const BrakingLimits& limits);
   double shareWithin(double way) const;
   Lasting lasting(const MotionInputs& inputs, const RobotState& from, MovingTool& tool, const JointCommand& command,
-                  const BrakingLimits& limits, const StopOnPath& stop, double scale);
+                  const BrakingLimits& limits, double scale);
   void collectRows(const MotionInputs& inputs, const MovingTool& state, const BrakingLimits& limits,
                    const StopOnPath& stop, double way);
   void moveOn(const RobotState& from, const JointCommand& command, double way);
   void moveRowsOn(const MotionInputs& inputs, const RobotState& from, const JointCommand& command, double way);
-  void stopUnlessEveryGapOpens(const MotionInputs& inputs, const JointCommand& command, const BrakingLimits& limits,
-                               GuardedMotion& motion);
+  void stopUnlessEveryGapOpens(const MotionInputs& inputs, const JointCommand& command, GuardedMotion& motion);
 
   const MotionGuardOptions options_;
   const std::shared_ptr<const KinematicTree> tree_;

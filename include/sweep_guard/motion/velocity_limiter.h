@@ -54,8 +54,8 @@ class VelocityLimiter {
 };
 
 /// Returns the part of a command that leads out: the command, scaled down until no tool point is faster than
-/// `escape_speed` or can not stop before what no plane stands for; zero unless every gap grows, also if surfaces come and
-/// the tool turns.
+/// `escape_speed` or can not stop before what no plane stands for; zero unless every gap has grown when the tool is at rest,
+/// also if surfaces come and the tool turns.
 /// @throws InvalidInput  if a value is NaN or out of range
 Twist escapeVelocity(const Twist& command_W, const std::vector<FacingBall>& facing, const UncoveredSurfaces& uncovered,
                      const BrakingLimits& limits, double escape_speed);
