@@ -288,7 +288,8 @@ TEST(DocumentsTest, ListTheArgumentsOfEachLaunchFile) {
   Names listed;
   for (size_t i = 1; i < chapters.size(); ++i) {
     const std::string file = lines(chapters[i]).front();
-    chapters[i] = withRows(chapters[i], "| argument | default | meaning |", argumentLines(kRoot / "launch" / file, shared));
+    chapters[i] =
+        withRows(chapters[i], "| argument | default | meaning |", argumentLines(kRoot / "launch" / file, shared));
     listed.insert(file);
   }
   expectContents(document, joined(chapters, "\n## "));
