@@ -132,7 +132,7 @@ TEST(RecordedHandsTest, OverTheShoulderAreNotSeenForAtMostFivePercentOfTheTime) 
   for (const char* name :
        {"handheld_vicon", "handheld_camera_fr2_desk", "handheld_rig_room1", "handheld_stylus_15hz", "robot_arm"}) {
     const auto path = dataPath(std::string("motion/") + name + ".txt");
-    if (!std::filesystem::exists(path)) GTEST_SKIP() << "there is no " << path;
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << missing(path);
     const Hand hand(posesIn(path), whole ? 0.0 : kShortFrom);
     const double seconds = whole ? hand.seconds() : 8.0;
     std::vector<double> shares = seenOverTheShoulder(hand, seconds);

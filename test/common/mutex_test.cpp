@@ -65,7 +65,8 @@ std::chrono::milliseconds waitOfHighPriority() {
 TEST(MutexTest, AThreadOfMiddlePriorityDelaysNoWaitOfHighPriority) {
   bool granted = false;
   std::thread([&] { granted = setPriority(20); }).join();
-  if (!granted) GTEST_SKIP() << "real-time priorities are refused";
+  if (!granted)
+    GTEST_SKIP() << "real-time priorities are refused: run it as root, or with a limit of rtprio of 20 or more";
   EXPECT_LT(waitOfHighPriority<Mutex>(), 200ms);
   EXPECT_GE(waitOfHighPriority<std::mutex>(), 200ms) << "there is nothing to avoid: the test proves nothing";
 }

@@ -171,7 +171,7 @@ class DeterminismTest : public testing::TestWithParam<const char*> {};
 
 TEST_P(DeterminismTest, TheSameInputsInTheSameOrderGiveTheSameBitsOnRecordedHands) {
   const std::filesystem::path data = dataPath("motion");
-  if (!std::filesystem::exists(data)) GTEST_SKIP() << data << " is missing; set SWEEP_GUARD_DATA";
+  if (!std::filesystem::exists(data)) GTEST_SKIP() << missing(data);
   for (const char* const name : {"handheld_stylus_15hz.txt", "handheld_vicon.txt", "robot_arm.txt"}) {
     std::vector<StampedPose> poses = sweep_guard_recording::readRecording(data / name, "").poses;
     poses.resize(std::min(poses.size(), kPoses));

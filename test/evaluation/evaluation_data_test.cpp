@@ -19,7 +19,7 @@ class EvaluationDataTest : public testing::Test {
  protected:
   void SetUp() override {
     const std::filesystem::path data = dataPath("motion");
-    if (!std::filesystem::exists(data)) GTEST_SKIP() << data << " is missing; set SWEEP_GUARD_DATA";
+    if (!std::filesystem::exists(data)) GTEST_SKIP() << missing(data);
     std::vector<std::string> words = {"evaluate_prediction"};
     for (const auto& entry : std::filesystem::directory_iterator(data)) {
       if (entry.path().extension() == ".txt") words.push_back(entry.path());

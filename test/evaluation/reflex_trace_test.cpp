@@ -112,7 +112,7 @@ class ReflexTraceTest : public testing::TestWithParam<const char*> {};
 
 TEST_P(ReflexTraceTest, IsThatOfOneThresholdForAll) {
   const std::filesystem::path file = dataPath("motion") / GetParam();
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is missing; set SWEEP_GUARD_DATA";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << missing(file);
   auto poses = sweep_guard_recording::readRecording(file, "").poses;
   poses.resize(std::min(poses.size(), kPoses));
   Session session(poses);

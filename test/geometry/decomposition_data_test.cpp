@@ -29,7 +29,7 @@ class DecompositionDataTest : public testing::TestWithParam<const char*> {};
 
 TEST_P(DecompositionDataTest, PiecesContainEveryTriangle) {
   const fs::path path = dataPath(GetParam());
-  if (!fs::exists(path)) GTEST_SKIP() << path << " is missing; set SWEEP_GUARD_DATA";
+  if (!fs::exists(path)) GTEST_SKIP() << missing(path);
   const sweep_guard_ros::MeshSurface surface = sweep_guard_ros::readMesh(path);
   const TriangleMesh mesh(surface.vertices, surface.triangles);
   const auto sets = decompose(mesh);

@@ -101,8 +101,7 @@ class Volumes {
 };
 
 TEST(VolumesTest, AreThoseOfCorefinement) {
-  if (!std::filesystem::exists(dataPath(kFingerMesh)))
-    GTEST_SKIP() << "set SWEEP_GUARD_DATA: " << dataPath(kFingerMesh) << " is missing";
+  if (!std::filesystem::exists(dataPath(kFingerMesh))) GTEST_SKIP() << missing(dataPath(kFingerMesh));
   const char* const other = std::getenv("SWEEP_GUARD_VOLUMES");
   std::ifstream file(other != nullptr ? other : std::string(SWEEP_GUARD_SOURCE_DIR) + kVolumesFile);
   Volumes volumes;

@@ -63,33 +63,38 @@ Jacobian jacobianByKdl(const KinematicTree& tree, size_t link, const std::vector
   return J_R;
 }
 
-TEST(KinematicsKdlTest, LinksAreWhereKdlPutsThem) {
-  Random random(/*seed=*/1);
+struct PlacedRobot {
+  KinematicTree tree;
+  std::vector<double> positions;
+  std::vector<Eigen::Isometry3d> X_RL;
+};
+
+/// Calls check(robot, link) for each link of 1000 robots.
+template <typename Check>
+void forEachLink(std::uint64_t seed, const Check& check) {
+  Random random(seed);
   for (int i = 0; i < 1000; ++i) {
-    const KinematicTree tree = randomRobot(random, 2 + static_cast<size_t>(random.below(12)), random.chance(0.5));
-    const RobotState state = randomState(random, tree, 3.0);
-    std::vector<Eigen::Isometry3d> X_RL;
-    tree.poses(state.positions, X_RL);
-    for (size_t link = 0; link < X_RL.size(); ++link) {
-      const KDL::Frame expected = poseByKdl(tree, link, state.positions);
-      EXPECT_TRUE(KDL::Equal(expected, toKdl(X_RL[link]), 1e-12)) << "robot " << i << ", link " << link;
-    }
+    SCOPED_TRACE("robot " + std::to_string(i));
+    PlacedRobot robot{randomRobot(random, 2 + static_cast<size_t>(random.below(12)), random.chance(0.5)), {}, {}};
+    robot.positions = randomState(random, robot.tree, 3.0).positions;
+    robot.tree.poses(robot.positions, robot.X_RL);
+    for (size_t link = 0; link < robot.X_RL.size(); ++link) check(robot, link);
   }
 }
 
+TEST(KinematicsKdlTest, LinksAreWhereKdlPutsThem) {
+  forEachLink(/*seed=*/1, [](const PlacedRobot& robot, size_t link) {
+    const KDL::Frame expected = poseByKdl(robot.tree, link, robot.positions);
+    EXPECT_TRUE(KDL::Equal(expected, toKdl(robot.X_RL[link]), 1e-12)) << "link " << link;
+  });
+}
+
 TEST(KinematicsKdlTest, JacobiansAreThoseOfKdl) {
-  Random random(/*seed=*/2);
   Jacobian J_R;
-  for (int i = 0; i < 1000; ++i) {
-    const KinematicTree tree = randomRobot(random, 2 + static_cast<size_t>(random.below(12)), random.chance(0.5));
-    const RobotState state = randomState(random, tree, 3.0);
-    std::vector<Eigen::Isometry3d> X_RL;
-    tree.poses(state.positions, X_RL);
-    for (size_t link = 0; link < X_RL.size(); ++link) {
-      geometricJacobian(tree, X_RL, link, J_R);
-      EXPECT_LT((J_R - jacobianByKdl(tree, link, state.positions)).norm(), 1e-12) << "robot " << i << ", link " << link;
-    }
-  }
+  forEachLink(/*seed=*/2, [&](const PlacedRobot& robot, size_t link) {
+    geometricJacobian(robot.tree, robot.X_RL, link, J_R);
+    EXPECT_LT((J_R - jacobianByKdl(robot.tree, link, robot.positions)).norm(), 1e-12) << "link " << link;
+  });
 }
 
 }  // namespace

@@ -283,7 +283,7 @@ void runPlacement(const CapsuleArm& arm, const std::vector<HandPose>& hand, Rand
 // 320 cases are those of doc/motion.md, and the most.
 TEST(ArmClosedLoopTest, NoLinkRunsIntoWhatItRunsIntoWithoutTheGuard) {
   const std::filesystem::path data = dataPath("motion");
-  if (!std::filesystem::exists(data)) GTEST_SKIP() << data << " is missing; set SWEEP_GUARD_DATA";
+  if (!std::filesystem::exists(data)) GTEST_SKIP() << missing(data);
   std::vector<std::vector<HandPose>> hands;
   for (const char* name : {"handheld_vicon.txt", "robot_arm.txt", "handheld_stylus_15hz.txt",
                            "handheld_camera_fr2_desk.txt", "handheld_rig_room1.txt"})

@@ -37,6 +37,15 @@ MotionInputs inputsAt(int ms, double x) {
           MotionInputs::GuardWarning{WarningLevel::kClear, 0, at(ms).steady}};
 }
 
+// Nothing has a plane; what has none is at this distance from the tool at x.
+std::shared_ptr<const PlaneSet> noPlanes(int ms, double x, double distance) {
+  PlaneSet planes = *wall(ms);
+  planes.planes.clear();
+  planes.uncovered = {distance, 0.0};
+  planes.X_WT = along(x);
+  return std::make_shared<const PlaneSet>(planes);
+}
+
 MotionCommand moving(const Vector3d& v_W, int ms, const Vector3d& w_W = Vector3d::Zero()) {
   return {{v_W, w_W}, Vector3d::Zero(), received(ms), milliseconds(10), {}};
 }
@@ -131,12 +140,8 @@ TEST(MotionGuardTest, TheRestOfARobotThatFollowsPosesCounts) {
 }
 
 TEST(MotionGuardTest, WhatNoPlaneStandsForBoundsTheSpeedAsAWhole) {
-  PlaneSet planes = *wall(1000);
-  planes.planes.clear();
-  planes.uncovered = {0.05, 0.0};
-  planes.X_WT = along(0.5);
   MotionInputs inputs = inputsAt(1000, 0.5);
-  inputs.planes = std::make_shared<const PlaneSet>(planes);
+  inputs.planes = noPlanes(1000, 0.5, 0.05);
   MotionGuard guard({});
   const GuardedMotion motion = guard.guard(inputs, moving({0.0, 1.0, 0.0}, 1000), at(1000));
   EXPECT_NEAR(motion.twist_W.v_W.norm(), stoppingSpeed(0.048, {1.0, 0.01, 0.002, 0.101}), 1e-9);
@@ -144,12 +149,8 @@ TEST(MotionGuardTest, WhatNoPlaneStandsForBoundsTheSpeedAsAWhole) {
 }
 
 TEST(MotionGuardTest, AMotionInFlightBringsWhatNoPlaneStandsForNearer) {
-  PlaneSet planes = *wall(1000);
-  planes.planes.clear();
-  planes.uncovered = {0.05, 0.0};
-  planes.X_WT = along(0.5);
   MotionInputs inputs = inputsAt(1000, 0.5);
-  inputs.planes = std::make_shared<const PlaneSet>(planes);
+  inputs.planes = noPlanes(1000, 0.5, 0.05);
   MotionGuard guard({});
   MotionCommand command = moving({0.0, 1.0, 0.0}, 1000);
   command.rest_WT = along(0.48);
@@ -158,13 +159,9 @@ TEST(MotionGuardTest, AMotionInFlightBringsWhatNoPlaneStandsForNearer) {
 }
 
 TEST(MotionGuardTest, WhatNoPlaneStandsForIsNearerSinceThePlanesByTheWayOfTheFarthestToolPoint) {
-  PlaneSet planes = *wall(1000);
-  planes.planes.clear();
-  planes.uncovered = {0.1, 0.0};
-  planes.X_WT = along(0.52);
   MotionInputs inputs = inputsAt(1000, 0.5);
   inputs.pose->X_WT.rotate(Eigen::AngleAxisd(0.3, Vector3d::UnitZ()));
-  inputs.planes = std::make_shared<const PlaneSet>(planes);
+  inputs.planes = noPlanes(1000, 0.52, 0.1);
   MotionGuard guard({});
   MotionCommand command = moving({0.0, 1.0, 0.0}, 1000);
   command.point_T = Vector3d(0.05, 0.0, 0.0);
@@ -175,12 +172,8 @@ TEST(MotionGuardTest, WhatNoPlaneStandsForIsNearerSinceThePlanesByTheWayOfTheFar
 
 // Its origin and its tip turn by as much, but not as far.
 TEST(MotionGuardTest, WhatNoPlaneStandsForIsAsNearAsTheFarthestPointBringsIt) {
-  PlaneSet planes = *wall(1000);
-  planes.planes.clear();
-  planes.uncovered = {0.05, 0.0};
-  planes.X_WT = along(0.5);
   MotionInputs inputs = inputsAt(1000, 0.5);
-  inputs.planes = std::make_shared<const PlaneSet>(planes);
+  inputs.planes = noPlanes(1000, 0.5, 0.05);
   inputs.tool = std::make_shared<const ToolBalls>(ToolBalls{1, {{{Vector3d(0.5, 0.0, 0.0), 0.0}}}});
   MotionCommand command = moving({0.0, 1.0, 0.0}, 1000);
   command.point_T = Vector3d(0.5, 0.0, 0.0);
@@ -199,12 +192,9 @@ TEST(MotionGuardTest, StopsBeforeWhatNoPlaneStandsForHoweverOldTheDistanceIs) {
       std::vector<double> path = {0.1};
       for (int ms = 0; ms < 3000; ++ms) {
         const int before = std::max(0, ms - age_ms);
-        PlaneSet planes = *wall(before);
-        planes.planes.clear();
-        planes.uncovered.distance = path[static_cast<size_t>(before)] - 0.001;
-        planes.X_WT = along(path[static_cast<size_t>(before)]);
+        const double x = path[static_cast<size_t>(before)];
         MotionInputs inputs = inputsAt(ms, path.back());
-        inputs.planes = std::make_shared<const PlaneSet>(planes);
+        inputs.planes = noPlanes(before, x, x - 0.001);
         MotionCommand command = moving({-1.0, 0.0, 0.0}, ms);
         command.period = milliseconds(1);
         path.push_back(path.back() + 1e-3 * guard.guard(inputs, command, at(ms)).twist_W.v_W.x());

@@ -100,7 +100,7 @@ TEST_F(MotionFileTest, ReadsDecimalPointsInALocaleOfCommas) {
 
 TEST(MotionFileDataTest, ReadsEveryRecording) {
   const std::filesystem::path data = dataPath("motion");
-  if (!std::filesystem::exists(data)) GTEST_SKIP() << data << " is missing; set SWEEP_GUARD_DATA";
+  if (!std::filesystem::exists(data)) GTEST_SKIP() << missing(data);
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(data)) {
     if (entry.path().extension() != ".txt") continue;

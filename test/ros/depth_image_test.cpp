@@ -349,7 +349,7 @@ TEST(PackedDepthImageTest, AllocatesNothingForPixelsThatAreTooManyOrCannotBeTher
 
 TEST(PackedDepthImageTest, ReadsARealFrame) {
   const auto file = dataPath("depth/xarm7_realsense/depth/000000.png");
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is missing; set SWEEP_GUARD_DATA";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << missing(file);
   std::ifstream stream(file, std::ios::binary);
   const Bytes png{std::istreambuf_iterator<char>(stream), {}};
   std::vector<float> depths;

@@ -204,33 +204,33 @@ TEST(DocumentsTest, ListEachMessage) {
   EXPECT_EQ(listed, there);
 }
 
+void expectParameters(const std::filesystem::path& document, const std::string& column,
+                      const std::vector<ParameterInfo>& described) {
+  const std::string head = "| " + column + " | default | type, unit, range | effect |";
+  expectContents(document, withRows(contents(document), head, parameterRows(described)));
+}
+
 TEST(DocumentsTest, ListEachParameter) {
   const auto described = loadParameters(ros::NodeHandle("/nothing_is_set")).described;
-  const std::string head = "| parameter | default | type, unit, range | effect |";
-  expectContents(kInterface, withRows(contents(kInterface), head, parameterRows(described)));
+  expectParameters(kInterface, "parameter", described);
   expectContents(kRoot / "config" / "sweep_guard.yaml", configurationFile(described));
 }
 
 TEST(DocumentsTest, ListEachParameterOfMotionGuard) {
   const auto described = loadMotionParameters(ros::NodeHandle("/nothing_is_set")).described;
-  const std::string head = "| key | default | type, unit, range | effect |";
-  expectContents(kInterface, withRows(contents(kInterface), head, parameterRows(described)));
+  expectParameters(kInterface, "key", described);
   expectContents(kRoot / "config" / "motion_guard.yaml", motionConfigurationFile(described));
 }
 
 TEST(DocumentsTest, ListEachParameterOfTheBlackBox) {
   const auto described = loadBlackBoxParameters(ros::NodeHandle("/nothing_is_set")).described;
-  const std::string head = "| parameter | default | type, unit, range | effect |";
-  const std::filesystem::path document = kRoot / "doc" / "black_box.md";
-  expectContents(document, withRows(contents(document), head, parameterRows(described)));
+  expectParameters(kRoot / "doc" / "black_box.md", "parameter", described);
   expectContents(kRoot / "config" / "black_box.yaml", blackBoxConfigurationFile(described));
 }
 
 TEST(DocumentsTest, ListEachParameterOfHaptics) {
   const auto described = loadHapticsParameters(ros::NodeHandle("/nothing_is_set")).described;
-  const std::string head = "| parameter | default | type, unit, range | effect |";
-  const std::filesystem::path document = kRoot / "doc" / "haptics.md";
-  expectContents(document, withRows(contents(document), head, parameterRows(described)));
+  expectParameters(kRoot / "doc" / "haptics.md", "parameter", described);
   expectContents(kRoot / "config" / "haptics.yaml", hapticsConfigurationFile(described));
 }
 
@@ -288,7 +288,8 @@ TEST(DocumentsTest, ListTheArgumentsOfEachLaunchFile) {
   Names listed;
   for (size_t i = 1; i < chapters.size(); ++i) {
     const std::string file = lines(chapters[i]).front();
-    chapters[i] = withRows(chapters[i], "| argument | default | meaning |", argumentLines(kRoot / "launch" / file, shared));
+    chapters[i] =
+        withRows(chapters[i], "| argument | default | meaning |", argumentLines(kRoot / "launch" / file, shared));
     listed.insert(file);
   }
   expectContents(document, joined(chapters, "\n## "));

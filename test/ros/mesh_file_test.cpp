@@ -297,7 +297,7 @@ TEST_F(MeshFileTest, RefusesAFileThatCrashesItsReader) {
 
 TEST_F(MeshFileTest, SurvivesEveryHostileFileUnderEveryName) {
   const fs::path hostile = dataPath("hostile");
-  if (!fs::exists(hostile)) GTEST_SKIP() << hostile << " is missing; set SWEEP_GUARD_DATA";
+  if (!fs::exists(hostile)) GTEST_SKIP() << missing(hostile);
   int read = 0;
   int refused_files = 0;
   for (const auto& entry : fs::directory_iterator(hostile)) {

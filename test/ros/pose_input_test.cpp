@@ -19,7 +19,16 @@ boost::shared_ptr<geometry_msgs::PoseStamped> poseIn(const std::string& frame, r
   return pose;
 }
 
-class PoseInputTest : public BaseAndArm {
+class PoseInputFixture : public BaseAndArm {
+ protected:
+  sweep_guard_core::WarningMonitor monitor_{parameters_.limits};
+  const sweep_guard_core::WorkpieceStore workpieces_;
+  sweep_guard_core::WorkQueue queue_;
+  sweep_guard_core::FrameMotionStore frame_motions_;
+  sweep_guard_core::RecentPoses recent_poses_;
+};
+
+class PoseInputTest : public PoseInputFixture {
  protected:
   PoseInputTest() { input_.start(supervisor_); }
 
@@ -35,11 +44,6 @@ class PoseInputTest : public BaseAndArm {
     return taken;
   }
 
-  sweep_guard_core::WarningMonitor monitor_{parameters_.limits};
-  const sweep_guard_core::WorkpieceStore workpieces_;
-  sweep_guard_core::WorkQueue queue_;
-  sweep_guard_core::FrameMotionStore frame_motions_;
-  sweep_guard_core::RecentPoses recent_poses_;
   PoseInput input_{node_, live_, {frames_, workpieces_, monitor_, queue_, frame_motions_, recent_poses_}};
   const ros::Publisher publisher_ = node_.advertise<geometry_msgs::PoseStamped>("tool_pose", 1);
 };
@@ -140,7 +144,7 @@ TEST_F(StaticBaseTest, APoseThatWaitedIsWhereThingsWereWhenItCame) {
 }
 
 // The tool is the arm on its base, and its pose comes from tf.
-class RestingToolTest : public BaseAndArm {
+class RestingToolTest : public PoseInputFixture {
  protected:
   static Parameters fromTf() {
     Parameters parameters = patient();
@@ -180,11 +184,6 @@ class RestingToolTest : public BaseAndArm {
 
   const Parameters from_tf_ = fromTf();
   const LiveParameters live_from_tf_{from_tf_};
-  sweep_guard_core::WarningMonitor monitor_{parameters_.limits};
-  const sweep_guard_core::WorkpieceStore workpieces_;
-  sweep_guard_core::WorkQueue queue_;
-  sweep_guard_core::FrameMotionStore frame_motions_;
-  sweep_guard_core::RecentPoses recent_poses_;
   PoseInput input_{node_, live_from_tf_, {frames_, workpieces_, monitor_, queue_, frame_motions_, recent_poses_}};
 };
 

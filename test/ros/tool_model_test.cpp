@@ -559,7 +559,7 @@ class RealRobotTest : public testing::Test {
  protected:
   void SetUp() override {
     folder_ = dataPath("urdf");
-    if (!fs::exists(folder_)) GTEST_SKIP() << folder_ << " is missing; set SWEEP_GUARD_DATA";
+    if (!fs::exists(folder_)) GTEST_SKIP() << missing(folder_);
     PackageFolder::setPackagePath(folder_.string());
   }
 

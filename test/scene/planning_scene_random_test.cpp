@@ -165,7 +165,8 @@ void expectHeld(PlanningScene scene, const Told& told) {
 
 TEST(PlanningSceneRandomTest, HoldsAndTellsWhatTheOracleHolds) {
   const char* const path = std::getenv("SWEEP_GUARD_SCENE_STEPS");
-  if (path == nullptr) GTEST_SKIP() << "set SWEEP_GUARD_SCENE_STEPS to a file of planning_scene_oracle.py";
+  if (path == nullptr)
+    GTEST_SKIP() << "planning_scene_random.sh runs it, on the steps of its oracle (SWEEP_GUARD_SCENE_STEPS)";
   StepReader reader(path);
   PlanningScene scene(/*awaits_full_scene=*/true);
   Told told;

@@ -29,6 +29,15 @@ struct Boxes {
 
 float randomFloat(Random& random) { return static_cast<float>(random.uniform(-1.0, 1.0)); }
 
+Boxes randomBoxes(Random& random, size_t count) {
+  Boxes boxes(count);
+  for (size_t i = 0; i < 3 * boxes.stride; ++i) {
+    boxes.sides[i] = randomFloat(random);
+    boxes.sides[i + 3 * boxes.stride] = boxes.sides[i] + 0.3F * std::abs(randomFloat(random));
+  }
+  return boxes;
+}
+
 std::vector<float> randomBlocks(Random& random, size_t blocks) {
   std::vector<float> vertices(blocks * kFloats + kPadding);
   for (float& coordinate : vertices) coordinate = randomFloat(random);
@@ -123,11 +132,7 @@ TEST_P(KernelsTest, FindsThePlanesThatAWholeBoxIsBeyond) {
   int set = 0;
   int clear = 0;
   for (const size_t count : {1U, 16U, 40U, 130U}) {
-    Boxes boxes(count);
-    for (size_t i = 0; i < 3 * boxes.stride; ++i) {
-      boxes.sides[i] = randomFloat(random);
-      boxes.sides[i + 3 * boxes.stride] = boxes.sides[i] + 0.3F * std::abs(randomFloat(random));
-    }
+    Boxes boxes = randomBoxes(random, count);
     const Planes planes = randomPlanes(random, 12);
     std::vector<std::uint16_t> bits(boxes.stride);
     GetParam().classifyBoxes(boxes.arrays<const float>(), count, planes, bits.data());
@@ -163,11 +168,7 @@ PerPlane randomInverses(Random& random) {
 TEST_P(KernelsTest, ScoresABoxByTheCornerNearestToEachPlane) {
   Random random(8);
   for (const size_t count : {1U, 16U, 40U, 130U}) {
-    Boxes boxes(count);
-    for (size_t i = 0; i < 3 * boxes.stride; ++i) {
-      boxes.sides[i] = randomFloat(random);
-      boxes.sides[i + 3 * boxes.stride] = boxes.sides[i] + 0.3F * std::abs(randomFloat(random));
-    }
+    Boxes boxes = randomBoxes(random, count);
     const Planes planes = randomPlanes(random, 12);
     const PerPlane inverse = randomInverses(random);
     std::vector<float> scores(boxes.stride);

@@ -2,21 +2,11 @@
 # demo_camera.sh SCRIPTS: the guard of the demo meets the workpiece though it has no mesh, but the images of a depth camera, rendered
 # or from a bag; and what cannot be played is refused in words.
 set -euo pipefail
-# shellcheck source-path=SCRIPTDIR/../../scripts
-. "$1/processes.bash"
 here=$(dirname "$(readlink -f "$0")")
-export ROS_IP=127.0.0.1
-ROS_HOME=$(mktemp -d)
-export ROS_HOME
-trap 'clean_up; rm -rf "$ROS_HOME"' EXIT
+# shellcheck source-path=SCRIPTDIR
+. "$here/run_demo.bash"
 
-wrong() { echo "$*:" && cat "$ROS_HOME/output" && exit 1; }
-
-run() {
-  choose_master
-  start timeout 100 roslaunch -p "$port" sweep_guard demo.launch rviz:=false duration:=8 "$@" >"$ROS_HOME/output" 2>&1
-  wait $! || wrong "the demo did not end"
-}
+run_demo() { run demo.launch rviz:=false duration:=8 "$@"; }
 
 # at_least NAME LEAST - a line of the summary
 at_least() {
@@ -28,7 +18,7 @@ at_least() {
 
 # meets ARGUMENT... - the drill reaches the surface within 4 s
 meets() {
-  run "$@"
+  run_demo "$@"
   at_least 'depth images' 30
   at_least contacts 10
   grep -q '^poses lost  *0$' "$ROS_HOME/output" || wrong 'poses were lost'
@@ -44,7 +34,7 @@ refuses() {
 
 # plays_not WORDS ARGUMENT...
 plays_not() {
-  run "${@:2}"
+  run_demo "${@:2}"
   grep -qF -- "$1" "$ROS_HOME/output" || wrong "it does not say '$1'"
   echo "refused: $1"
 }

@@ -2,14 +2,8 @@
 # demo_elastic.sh SCRIPTS: tool, force, deformation and guard close the loop: the guard measures a force at a workpiece that
 # gives way to the tool, and loses no pose.
 set -euo pipefail
-# shellcheck source-path=SCRIPTDIR/../../scripts
-. "$1/processes.bash"
-export ROS_IP=127.0.0.1
-ROS_HOME=$(mktemp -d)
-export ROS_HOME
-trap 'clean_up; rm -rf "$ROS_HOME"' EXIT
-
-wrong() { echo "$*:" && cat "$ROS_HOME/output" && exit 1; }
+# shellcheck source-path=SCRIPTDIR
+. "$(dirname "$0")/run_demo.bash"
 
 # between NAME LEAST MOST - a line of the summary
 between() {
@@ -20,10 +14,7 @@ between() {
     wrong "$1 is not in [$2, $3]"
 }
 
-choose_master
-start timeout 100 roslaunch -p "$port" sweep_guard demo.launch rviz:=false elastic:=true loop:=false duration:=6 \
-  >"$ROS_HOME/output" 2>&1
-wait $! || wrong 'the demo did not end'
+run demo.launch rviz:=false elastic:=true loop:=false duration:=6
 between 'poses lost' 0 0
 between 'largest dent \[mm\]' 5 20  # the tool goes 10 mm deep
 between 'largest force \[N\]' 0.2 10

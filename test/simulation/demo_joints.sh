@@ -6,7 +6,7 @@ set -euo pipefail
 . "$1/processes.bash"
 here=$(dirname "$(readlink -f "$0")")
 data=${SWEEP_GUARD_DATA:-$1/../../shared/data}
-[[ -e $data/urdf/expanded ]] || { echo "SKIPPED: $data/urdf/expanded is missing; set SWEEP_GUARD_DATA" && exit 77; }
+[[ -e $data/urdf/expanded ]] || { echo "SKIPPED: $data/urdf/expanded is missing: it is no part of the repository; SWEEP_GUARD_DATA names the folder of such inputs" && exit 77; }
 data=$(realpath "$data")
 export ROS_IP=127.0.0.1 ROS_PACKAGE_PATH=$ROS_PACKAGE_PATH:$data/urdf
 folder=$(mktemp -d)

@@ -155,7 +155,7 @@ TEST_F(WorkpieceFileTest, RefusesAFileLargerThanItsLimit) {
 
 TEST(WorkpieceDataTest, LoadsEveryMesh) {
   const std::filesystem::path meshes = dataPath("mesh");
-  if (!std::filesystem::exists(meshes)) GTEST_SKIP() << meshes << " is missing; set SWEEP_GUARD_DATA";
+  if (!std::filesystem::exists(meshes)) GTEST_SKIP() << missing(meshes);
   for (const auto& entry : std::filesystem::recursive_directory_iterator(meshes)) {
     const std::string extension = entry.path().extension();
     if (extension != ".obj" && extension != ".stl" && extension != ".dae") continue;
@@ -169,7 +169,7 @@ TEST(WorkpieceDataTest, LoadsEveryMesh) {
 
 TEST(WorkpieceDataTest, LoadsOrRefusesEveryHostileFile) {
   const std::filesystem::path hostile = dataPath("hostile");
-  if (!std::filesystem::exists(hostile)) GTEST_SKIP() << hostile << " is missing; set SWEEP_GUARD_DATA";
+  if (!std::filesystem::exists(hostile)) GTEST_SKIP() << missing(hostile);
   for (const auto& entry : std::filesystem::directory_iterator(hostile)) {
     try {
       const std::vector<float> positions = Workpiece::fromFile(entry.path(), {}).positions(1.0);

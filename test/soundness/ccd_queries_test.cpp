@@ -73,7 +73,7 @@ TEST(CcdQueryTest, EdgesHitIfTheyCross) {
 
 TEST(CcdDataTest, MissesNoneOfTheSampleQueries) {
   const std::filesystem::path data = dataPath("ccd");
-  if (!std::filesystem::exists(data)) GTEST_SKIP() << data << " is missing; set SWEEP_GUARD_DATA";
+  if (!std::filesystem::exists(data)) GTEST_SKIP() << missing(data);
   CcdTally all;
   std::ostringstream misses;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(data)) {

@@ -16,6 +16,7 @@ namespace sweep_guard_core {
 /// Indices of triangles: ascending, each once.
 using TriangleSet = std::vector<std::uint32_t>;
 
+/// What Detector::detect() finds.
 struct Detection {
   TriangleSet triangles;  ///< triangles that detect() names
   /// Each of them meets the volume grown() by this [m], but in motion; covers the rounding of the detector.

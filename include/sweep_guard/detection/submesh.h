@@ -22,7 +22,7 @@ class Submesh {
   static Submesh inMotion(const TriangleMesh& mesh_M) { return {mesh_M, mesh_M.blocksInMotion(), /*in_motion=*/true}; }
 
   const TriangleMesh& mesh_M() const { return *mesh_M_; }
-  bool isInMotion() const { return in_motion_; }
+  bool isInMotion() const { return in_motion_; }  ///< made by inMotion()
   /// Returns the box around the whole mesh, relative to mesh_M().origin() [m].
   const Eigen::AlignedBox3d& bounds() const { return *bounds_; }
   bool empty() const { return clusters_->empty(); }

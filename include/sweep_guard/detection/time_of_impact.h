@@ -86,6 +86,7 @@ class ImpactFinder {
   std::optional<Impact> overlapAtStart(const MovingTriangle& triangle,
                                        const std::optional<Eigen::Vector3d>& contact_normal_M);
 
+  /// Result of find().
   struct Found {
     std::optional<Impact> impact;  ///< as from timeOfImpact()
     /// Unit: the direction that separated piece and triangle last, turned back to the start if there is an impact. Zero:

@@ -109,7 +109,7 @@ class ConvexShape {
   /// The front face is the one at the larger coordinate along axis_T(). The faces are those of the body without padding
   /// (of a sphere, its center); padding moves the point by as much along the direction.
   Eigen::Vector3d frontSupport(const Eigen::Vector3d& direction_T) const;
-  Eigen::Vector3d rearSupport(const Eigen::Vector3d& direction_T) const;
+  Eigen::Vector3d rearSupport(const Eigen::Vector3d& direction_T) const;  ///< see frontSupport()
 
   double length() const { return faces_.front - faces_.rear + 2.0 * padding_; }  ///< between the faces, padded [m]
   double radius() const {

@@ -40,7 +40,7 @@ class Enclosure {
   /// Returns the triangles of the open parts and their fans, each patch in one direction: that of most of its triangles
   /// as sent. Empty if there are more borders than a quarter of the triangles (and 1 024), as of a heap of single ones.
   const std::vector<Triangle>& openTriangles() const { return open_; }
-  const std::vector<OpenPart>& openParts() const { return open_parts_; }
+  const std::vector<OpenPart>& openParts() const { return open_parts_; }  ///< in the order of openTriangles()
   /// Returns what became of triangle `i` of the mesh: it bounds a solid as sent or reversed, it belongs to an open part, or
   /// it is left out, as a second time or as a fin.
   Role role(size_t i) const { return roles_.empty() ? Role::kOpen : roles_[i]; }

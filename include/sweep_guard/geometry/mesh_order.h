@@ -12,6 +12,7 @@ namespace sweep_guard_core {
 /// Three vertex indices, 0-based, of either winding.
 using Triangle = std::array<std::uint32_t, 3>;
 
+/// Vertices, in any unit, and the triangles between them.
 struct TriangleSurface {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Triangle> triangles;  ///< indices into `vertices`

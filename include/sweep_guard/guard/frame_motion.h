@@ -91,10 +91,10 @@ class FrameMotionStore {
   /// @param known  what was known of the frames at that sweep
   void forgetBefore(Time pose, const FrameMotions& known);
 
-  std::shared_ptr<const FrameMotions> get() const;
+  std::shared_ptr<const FrameMotions> get() const;  ///< all motions
   /// Returns the motion of a frame; null if there is none.
   std::shared_ptr<const FrameMotion> find(const std::string& frame) const;
-  bool expects(const std::string& frame) const;
+  bool expects(const std::string& frame) const;  ///< see expect()
   /// Returns the pose of a frame at a time; empty: not known.
   std::optional<Eigen::Isometry3d> at(const std::string& frame, Time time) const;
   /// Returns the newest measured pose of a frame; empty: there is none.

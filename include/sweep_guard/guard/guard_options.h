@@ -16,6 +16,7 @@
 
 namespace sweep_guard_core {
 
+/// Options of Guard.
 struct GuardOptions {
   SweepOptions sweep;
   PredictorOptions predictor;

@@ -80,6 +80,7 @@ struct SweepResult {
   void clear();  ///< resets all fields and keeps the buffers
 };
 
+/// Input of checkPath(). What it refers to must outlive it.
 struct PathRequest {
   const Tool& tool;
   const std::vector<Eigen::Isometry3d>& path;  ///< finite poses X_MT [m], at least one (asserted); one is a static test

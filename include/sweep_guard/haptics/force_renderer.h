@@ -10,6 +10,7 @@
 
 namespace sweep_guard_core {
 
+/// Options of ForceRenderer.
 struct ForceOptions {
   ContactLaw law;
   double position_scale = 1.0;                     ///< displacement of the tool per displacement of the device [-], > 0
@@ -29,6 +30,7 @@ struct ForceOptions {
   Duration pose_age = std::chrono::milliseconds(150);         ///< by stamp, > 0
 };
 
+/// How much of a force is let through, and why.
 struct ForcePermission {
   double gain = 0.0;  ///< of the force, in [0, 1]
   PermissionCause cause = PermissionCause::kNoWarning;
@@ -87,6 +89,7 @@ struct DeviceWrench {
   Eigen::Vector3d torque_D = Eigen::Vector3d::Zero();  ///< [N m]
 };
 
+/// A force for the device, and what it was scaled by.
 struct RenderedForce {
   DeviceWrench wrench;
   ForcePermission permission;

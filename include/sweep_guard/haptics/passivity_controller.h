@@ -26,6 +26,7 @@ namespace sweep_guard_core {
 /// each contact pays for itself.
 class PassivityController {
  public:
+  /// Limits of the device and of the hand, and the times of the loop.
   struct Options {
     double max_effort = 3.0;                               ///< > 0
     double max_speed = 0.5;                                ///< that the hand does not exceed, > 0

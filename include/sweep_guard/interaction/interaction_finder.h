@@ -35,10 +35,11 @@ struct Wrench {
 /// @param velocity_T  of the piece at the centroid, relative to the workpiece [m/s]
 Wrench interactionForce(const Interpenetration& found, const Eigen::Vector3d& velocity_T, const ForceLaw& law);
 
+/// Options of InteractionFinder.
 struct InteractionOptions {
   ForceLaw law;
-  std::map<std::string, double> stiffness_of;  ///< by id of the workpiece, in place of law.stiffness [N/m^3]
-  ForceLaw lawOf(const std::string& id) const;
+  std::map<std::string, double> stiffness_of;   ///< by id of the workpiece, in place of law.stiffness [N/m^3]
+  ForceLaw lawOf(const std::string& id) const;  ///< for a workpiece
 };
 
 /// What a tool and a workpiece have in common at one pose, and the force of the workpiece on the tool: the sums over
@@ -54,6 +55,7 @@ struct ObjectInteraction {
   Wrench wrench;
 };
 
+/// What a tool has in common with all workpieces at one pose.
 struct Interaction {
   std::vector<ObjectInteraction> objects;  ///< with a volume or an area, in the order of the workpieces
   Wrench total;

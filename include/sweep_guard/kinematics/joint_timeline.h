@@ -44,6 +44,7 @@ class JointTimeline {
   /// @param fixed  position of each variable that needs none [rad or m]; empty: it comes by add()
   JointTimeline(const KinematicTree& tree, std::vector<std::optional<double>> fixed, bool root_moves);
 
+  /// Position of one variable.
   struct Position {
     size_t variable;  ///< index in the tree
     double value;     ///< [rad or m]

@@ -29,6 +29,7 @@ struct RobotPath {
     double from;
     double to;
   };
+  /// Path of a body B.
   struct BodyPath {
     std::vector<Eigen::Isometry3d> X_WB;   ///< before each sweep, and after the last
     std::vector<double> deviation_bounds;  ///< [m], of each sweep, see PathRequest

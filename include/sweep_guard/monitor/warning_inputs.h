@@ -15,6 +15,7 @@ namespace sweep_guard_core {
 
 /// Holds the inputs of computeWarning().
 struct WarningInputs {
+  /// A workpiece.
   struct Object {
     std::string id;
     Timestamps timestamps;  ///< of the newest update
@@ -43,6 +44,7 @@ struct WarningInputs {
     std::optional<SteadyTime> found = {};  ///< when that was; empty: never
     std::vector<Duration> intervals = {};  ///< the newest ones between its transforms
   };
+  /// A workpiece that the tool touches.
   struct Contact {
     std::string id;
     std::vector<std::uint32_t> triangles;   ///< those not ruled out: ascending, each once; may be empty if `inside`

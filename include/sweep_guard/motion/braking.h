@@ -45,8 +45,8 @@ struct StopOnPath {
   double reaction_time;  ///< [s], > 0
   double braking_time;   ///< from the whole command: speed of the fastest point / deceleration [s], >= 0
 
-  double way(double share) const { return share * (reaction_time + 0.5 * share * braking_time); }
-  double untilRest(double share) const { return reaction_time + share * braking_time; }  ///< [s]
+  double way(double share) const { return share * (reaction_time + 0.5 * share * braking_time); }  ///< until rest [s]
+  double untilRest(double share) const { return reaction_time + share * braking_time; }            ///< [s]
   double share(double way) const;  ///< that is at rest after this way, >= 0; may be above 1
 };
 

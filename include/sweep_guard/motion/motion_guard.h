@@ -26,6 +26,7 @@ struct MotionCommand {
 
 /// What is sent in place of a command, and why.
 struct GuardedMotion {
+  /// The plane that limits a command.
   struct Limiting {
     size_t plane;              ///< index into PlaneSet::planes
     Eigen::Vector3d normal_W;  ///< of the plane: unit, from the surface to the tool

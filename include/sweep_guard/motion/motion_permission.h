@@ -47,6 +47,7 @@ enum class PermissionCause : std::uint8_t {
 /// Returns the cause in words for people.
 const char* textOf(PermissionCause cause);
 
+/// Options of MotionGuard and JointMotionGuard.
 struct MotionGuardOptions {
   double deceleration = 1.0;  ///< of the fastest tool point when the robot is stopped, along its path [m/s^2], > 0
   double standoff = 0.002;    ///< distance from a plane at which the closing speed is 0 [m], >= 0
@@ -71,10 +72,12 @@ void requireUsable(const MotionGuardOptions& options);
 
 /// What is known when a command is to be passed on, apart from the command. Null or empty: nothing has arrived yet.
 struct MotionInputs {
+  /// Pose of the tool frame.
   struct ToolPose {
     Eigen::Isometry3d X_WT;
     Timestamps timestamps;
   };
+  /// What counts of a warning of the guard.
   struct GuardWarning {
     WarningLevel level = WarningLevel::kUnknown;
     std::uint32_t reasons = 0;  ///< bits of Reason
@@ -93,6 +96,7 @@ struct MotionInputs {
   bool toolIsKnown() const { return tool && belongsTo(*planes, *tool); }  ///< that the planes were computed for
 };
 
+/// How much of a command is let through, and why.
 struct PermissionDecision {
   Permission permission = Permission::kStop;
   PermissionCause cause = PermissionCause::kNoCommand;

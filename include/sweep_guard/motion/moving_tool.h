@@ -33,6 +33,7 @@ class MovingTool {
     Twist twist_W;      ///< of the origin of L
     size_t first_ball;  ///< index into balls(), in the order of ToolBalls
   };
+  /// A ball of ToolBalls in motion.
   struct Ball {
     Eigen::Vector3d center_W;  ///< [m]
     Eigen::Vector3d v_W;       ///< of its center [m/s]

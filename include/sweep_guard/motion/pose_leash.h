@@ -22,6 +22,7 @@ double secondsBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, do
 /// turn rate.
 class PoseLeash {
  public:
+  /// Limits of the tool, and how the robot follows.
   struct Options {
     double max_speed = 0.25;     ///< [m/s], > 0
     double max_turn_rate = 1.0;  ///< [rad/s], > 0
@@ -48,7 +49,7 @@ class PoseLeash {
   /// @param sent_WT  pose sent last
   void observe(const Observation& seen, const Eigen::Isometry3d& sent_WT);
 
-  bool follows() const { return !stood_WT_; }
+  bool follows() const { return !stood_WT_; }  ///< the tool goes where it is sent
   /// Returns whether a pose waits for a tool that does not follow: it lies before the newest pose of the tool.
   bool keepsWaiting(const Eigen::Isometry3d& sent_WT) const;
   double reach() const;  ///< [s]; only after observe()

@@ -16,7 +16,7 @@ struct ClosingRow {
   /// @param ball, command_W, limits  usable
   ClosingRow(const FacingBall& ball, const Twist& command_W, const BrakingLimits& limits);
 
-  double closing(const Eigen::Vector3d& v_W, double s) const { return turning * s - normal_W.dot(v_W); }
+  double closing(const Eigen::Vector3d& v_W, double s) const { return turning * s - normal_W.dot(v_W); }  ///< [m/s]
 
   Eigen::Vector3d normal_W;
   double turning;   ///< by the whole turn [m/s]

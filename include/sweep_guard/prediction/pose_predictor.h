@@ -29,6 +29,7 @@ template <typename Space>
 class MotionChannel;
 struct PoseSpace;
 
+/// Options of PosePredictor and JointPredictor.
 struct PredictorOptions {
   std::string predictor = "direct";  ///< one of predictorNames()
   /// Degrees of the polynomials of `polynomial`: x y z of the tool's origin along the axes of W, then rotation about

@@ -75,15 +75,15 @@ struct LinearFunctions {
 };
 constexpr std::size_t kFunctions = 8;
 
-/// Triangles whose corners are tested at once, each before and after its motion.
 constexpr std::size_t kBatch = 16;
+/// Triangles whose corners are tested at once, each before and after its motion.
 struct TriangleBatch {
   std::size_t corners = 3;                                            ///< of each triangle: 3 at rest, 6 in motion
   std::array<std::array<std::array<double, kBatch>, 3>, 6> position;  ///< by corner, axis and triangle [m]
 };
 
-/// Unit directions n, and for each the least n·q of all points q of a body [m].
 constexpr std::size_t kMaxDirections = 16;
+/// Unit directions n, and for each the least n·q of all points q of a body [m].
 struct Directions {
   std::size_t count = 0;  ///< at most kMaxDirections
   std::array<std::array<double, kMaxDirections>, 3> normal;
@@ -96,8 +96,8 @@ struct BatchGaps {
   std::array<double, kBatch> direction;  ///< index of the direction
 };
 
-/// Vertical prisms: the triangles at their upper ends, and the lengths of their vertical edges.
 constexpr std::size_t kPrisms = 64;
+/// Vertical prisms: the triangles at their upper ends, and the lengths of their vertical edges.
 struct PrismBatch {
   std::size_t count = 0;                                                  ///< at most kPrisms
   std::array<std::array<std::array<double, kPrisms>, 3>, 3> corner = {};  ///< by corner, axis and prism [m]; finite
@@ -113,6 +113,7 @@ struct PrismSums {
   std::array<std::array<double, 3>, 3> area_moment = {};  ///< of position (row) times unit normal (column) [m^3]
 };
 
+/// The kernels for one instruction set.
 struct Kernels {
   const char* name;  ///< name of the instruction set
 

@@ -159,7 +159,7 @@ TEST(ElasticWorkpieceTest, IsBackAtRestASecondAfterTenMillimetersInAndOut) {
 
 TEST(ElasticWorkpieceTest, ALiverIsBackAtRestASecondAfterTenMillimetersInAndOut) {
   const auto path = dataPath("mesh/sofa_liver-smooth.obj");
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is missing; set SWEEP_GUARD_DATA";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << missing(path);
   pushTenMillimetersInAndOut(Workpiece::fromFile(path, resting()));
 }
 

@@ -33,6 +33,7 @@ struct ParameterInfo {
   bool live = false;                 ///< may change while the node runs
 };
 
+/// Range of a number, ends included.
 struct ParameterRange {
   double lowest;
   double highest;
