@@ -114,6 +114,20 @@ TEST_F(CameraSweepsTest, TheWayOfTheToolIsSweptAgainSinceTheImageBefore) {
   EXPECT_TRUE(sweepAgain(0.02, {0.2, 0.1, 0.6}, camera_.see(0.015, plane(0.85F))).contact());
 }
 
+TEST_F(CameraSweepsTest, TheFirstImageMeetsThePathSinceItsStamp) {
+  Workpiece far = *Camera().see(0.0, plane(9.0F));
+  far.id = "other";
+  const auto other = std::make_shared<const Workpiece>(far);
+  for (const double seconds : {0.0, 0.02}) {
+    Guard guard(Tool(ConvexShape::sphere(0.01)), makeDetector("reference"), {});
+    reportOf(guard, poseAt(0.0, {0.2, 0.1, 0.9}), {other});
+    reportOf(guard, poseAt(0.02, {0.2, 0.1, 1.1}), {other});
+    SweepReport report;
+    guard.sweep(poseAt(0.02, {0.2, 0.1, 1.1}), {other, Camera().see(seconds, wall())}, report, /*arrived=*/false);
+    EXPECT_EQ(report.contact(), seconds == 0.0) << seconds;
+  }
+}
+
 TEST_F(CameraSweepsTest, AHandThatCrossesThePathBetweenTwoImagesAtOneMeterPerSecondIsMet) {
   for (const double left : {0.0, 0.04, 0.08, 0.12, 0.16, 0.2}) {
     Guard guard(Tool(ConvexShape::sphere(0.01)), makeDetector("reference"), {});
