@@ -217,7 +217,7 @@ void DepthSurface::findMotion(size_t row, float reach) {
   for (size_t u = 0; u < x_.size(); u += kColumns) {
     for (size_t v = row; v < row + kRows; ++v, place += kColumns) endMotions(reach, v * stride_ + u, place);
   }
-  std::copy(&places_F_[3 * first], &places_F_[3 * place], &places_before_F_[3 * first]);
+  std::copy_n(&places_F_[3 * first], 3 * (place - first), &places_before_F_[3 * first]);
 }
 
 // Of the pixels in a row of a tile.
