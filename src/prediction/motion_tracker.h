@@ -56,7 +56,7 @@ class MotionTracker {
   Space space_;
   int samples_ = 0;
   Step step_ = Step::kBegins;
-  Sample newest_;
+  Sample newest_{};
   Duration period_{};
   Vector coordinates_ = Vector::Zero();
   double longest_period_ = 0.02;  // lately [s]; before there is one, stamps may be wrong by half of this
