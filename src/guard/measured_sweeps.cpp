@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "guard/late_deformations.h"
 #include "guard/out_of_reach.h"
 #include "guard/rigid_shape.h"
 
@@ -10,22 +11,6 @@ namespace sweep_guard_core {
 namespace {
 
 constexpr double kMergeTolerance = 1e-3;  // of the tool's bounding radius
-constexpr Duration kMaxUpdateInterval = std::chrono::milliseconds(500);
-constexpr size_t kMaxDeformations = 512;  // as a 1 kHz mesh has in that time
-constexpr size_t kMaxImages = 17;         // of a camera, each some megabytes: 16 and the one before them
-
-// Poses far behind the mesh would need ever more deformations, and an ever wider test.
-// @returns whether one is forgotten
-bool forgetLateDeformations(const Workpiece& newest, Workpieces& deformations) {
-  bool forgotten = false;
-  const size_t most = newest.of_camera ? kMaxImages : kMaxDeformations;
-  while (deformations.size() > 1 &&
-         (newest.stamp - deformations[1]->stamp > kMaxUpdateInterval || deformations.size() > most)) {
-    deformations.erase(deformations.begin());
-    forgotten = true;
-  }
-  return forgotten;
-}
 
 // Converts fractions of a segment to fractions of the interval, in which the segment lasts from `begin` to `end`.
 void rescale(std::vector<TriangleContact>& in_contact, double begin, double end) {
@@ -153,7 +138,7 @@ void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<
     Detector& detector = setup.detectors.of(*workpiece);
     const ContactPolicy contact(setup.tool, *workpiece, &setup.allowed, &setup.intentions);
     while (nextMotion(setup, object.result, passage)) {
-      // The older ones have met these poses before.
+      // Along old poses only the newest mesh is new: the others were swept there when they came.
       for (size_t i = passage.isNew() ? 0 : meshes_.size() - 1; i < meshes_.size(); ++i) {
         SweepResult& result =
             sweep_checker_.check(detector, {setup.tool, sub_motions_M_, meshes_[i], setup.options, cache_, contact});
@@ -292,7 +277,8 @@ void MeasuredSweeps::replace(Swept& swept, const std::shared_ptr<const Workpiece
   if (is_first) place->second = std::move(next);
 }
 
-// What a camera saw was there at its stamp; what comes otherwise, from the last pose on.
+// Returns the state of a workpiece that was not swept before. An image counts from its stamp on, any other workpiece from the last
+// swept pose on.
 MeasuredSweeps::Swept MeasuredSweeps::firstOf(const std::shared_ptr<const Workpiece>& workpiece,
                                               std::uint64_t swept_to) const {
   if (!workpiece->of_camera) return {{workpiece}, swept_to};
