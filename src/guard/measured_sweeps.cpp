@@ -281,9 +281,9 @@ void MeasuredSweeps::replace(Swept& swept, const std::shared_ptr<const Workpiece
 // swept pose on.
 MeasuredSweeps::Swept MeasuredSweeps::firstOf(const std::shared_ptr<const Workpiece>& workpiece,
                                               std::uint64_t swept_to) const {
-  if (!workpiece->of_camera) return {{workpiece}, swept_to};
-  const PoseHistory& history = poses_.of(workpiece->frame);
-  return {{workpiece}, std::min(swept_to, history[history.lastUpTo(workpiece->stamp)].number)};
+  const PoseHistory* const history = poses_.find(workpiece->frame);
+  if (!workpiece->of_camera || history == nullptr) return {{workpiece}, swept_to};
+  return {{workpiece}, std::min(swept_to, (*history)[history->lastUpTo(workpiece->stamp)].number)};
 }
 
 // A workpiece with other triangles, or in another frame, has not been swept since the last pose.

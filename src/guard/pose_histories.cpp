@@ -36,6 +36,11 @@ bool PoseHistories::isPlaced(const std::string& frame, const PoseWithFrames& pos
   return (frames.count(frame) != 0 || pose.X_WM.count(frame) != 0) && histories_.count(frame) != 0;
 }
 
+const PoseHistory* PoseHistories::find(const std::string& frame) const {
+  const auto history = histories_.find(frame);
+  return history == histories_.end() ? nullptr : &history->second;
+}
+
 void PoseHistories::findJumps(std::uint64_t after, const SpeedLimits& limits,
                               std::map<std::string, JumpSpeed>& jumps) const {
   jumps.clear();

@@ -36,7 +36,8 @@ class PoseHistories {
 
   bool isPlaced(const std::string& frame, const PoseWithFrames& pose, const FrameMotions& frames) const;
   const PoseHistory& of(const std::string& frame) const { return histories_.at(frame); }
-  std::uint64_t newest() const { return poses_; }  ///< number of the newest pose
+  const PoseHistory* find(const std::string& frame) const;  ///< null: there was no pose in this frame
+  std::uint64_t newest() const { return poses_; }           ///< number of the newest pose
   void findJumps(std::uint64_t after, const SpeedLimits& limits, std::map<std::string, JumpSpeed>& jumps) const;
   std::set<std::string> takePassedOver();  ///< frames whose waiting poses were left out since the last call
 

@@ -128,6 +128,17 @@ TEST_F(CameraSweepsTest, TheFirstImageMeetsThePathSinceItsStamp) {
   }
 }
 
+TEST_F(CameraSweepsTest, AnImageBeforeTheFirstPoseInItsFrameIsToldAndMeetsThePathSinceThatPose) {
+  const auto image = camera_.see(0.0, wall());
+  PoseWithFrames pose = poseAt(0.01, {0.2, 0.1, 0.9});
+  pose.X_WM.clear();
+  const SweepReport before = reportOf(guard_, pose, {image});
+  EXPECT_EQ(before.unplaced, Workpieces{image});
+  EXPECT_TRUE(before.failures.empty());
+  EXPECT_FALSE(sweepTo(0.02, {0.2, 0.1, 0.9}, image).contact());
+  EXPECT_TRUE(sweepTo(0.03, {0.2, 0.1, 1.1}, image).contact());
+}
+
 TEST_F(CameraSweepsTest, AHandThatCrossesThePathBetweenTwoImagesAtOneMeterPerSecondIsMet) {
   for (const double left : {0.0, 0.04, 0.08, 0.12, 0.16, 0.2}) {
     Guard guard(Tool(ConvexShape::sphere(0.01)), makeDetector("reference"), {});
