@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <future>
 #include <limits>
 
 #include "sweep_guard/common/error.h"
@@ -43,7 +44,6 @@ DepthSurface::DepthSurface(const Grid& grid, const Pinhole& camera, const DepthO
       inverse_((size_t{grid.tileRows()} * kRows + 1) * stride_, 0.0F),
       depths_(inverse_.size(), kNothing),
       nearer_(depths_),
-      pairs_(stride_ * kRows),
       remembered_(depths_),
       farthest_(depths_),
       nearer_before_(depths_),
@@ -63,9 +63,12 @@ DepthSurface::DepthSurface(const Grid& grid, const Pinhole& camera, const DepthO
     for (size_t u = 0; u < grid.width(); ++u)
       inverse_[v * stride_ + u] = static_cast<float>(1.0 / std::hypot(x_[u], y_[v], 1.0));
   }
+  const std::vector<std::uint8_t> pairs(stride_ * kRows);
+  const size_t middle = grid.tileRows() / 2 * kRows;
+  halves_ = {{{0, middle, pairs}, {middle, y_.size(), pairs}}};
 }
 
-// A row of tiles goes through all steps while the processor's cache holds it. Its last triangles reach into the next one.
+// A thread for each half: at 640 x 480 pixels this is what takes most of the time from an image to its contacts.
 void DepthSurface::take(const std::vector<float>& depths, const Eigen::Isometry3d& X_FC, double since,
                         const std::vector<SweptVolume>& bodies_F) {
   assert(depths.size() == size_t{grid_.width()} * grid_.height());
@@ -74,20 +77,29 @@ void DepthSurface::take(const std::vector<float>& depths, const Eigen::Isometry3
   free_.begin(X_FC_, rests_, since);
   before_F_.swap(places_before_F_);
   beginSelf(bodies_F);
-  seen_ = hidden_ = 0;
-  for (size_t row = 0; row < y_.size(); row += kRows) {
+  constexpr auto kIfPossible = std::launch::async | std::launch::deferred;
+  auto lower = std::async(kIfPossible, [&] { takeRows(depths, reach, halves_[1]); });
+  takeRows(depths, reach, halves_[0]);
+  lower.get();
+  for (Rows& half : halves_) {
+    if (half.first < half.end) findTriangles(half.end - kRows, half.pairs);
+  }
+  forgetGone(reach);
+  placeUnseen();
+  nearer_before_.swap(nearer_);
+  free_.end(self_);
+}
+
+// A row of tiles goes through all steps while the processor's cache holds it. Its last triangles reach into the next one.
+void DepthSurface::takeRows(const std::vector<float>& depths, float reach, Rows& rows) {
+  for (size_t row = rows.first; row < rows.end; row += kRows) {
     for (size_t v = row; v < std::min<size_t>(row + kRows, grid_.height()); ++v) readRow(depths, v);
     placeTiles(row);
     hideSelf(row);
     remember(row);
     findMotion(row, reach);
-    if (row > 0) findTriangles(row - kRows);
+    if (row > rows.first) findTriangles(row - kRows, rows.pairs);
   }
-  findTriangles(y_.size() - kRows);
-  forgetGone(reach);
-  placeUnseen();
-  nearer_before_.swap(nearer_);
-  free_.end(self_);
 }
 
 // Transforms that are interpolated differ in their last digits.
@@ -155,18 +167,15 @@ void DepthSurface::hideSelf(size_t row) {
 void DepthSurface::remember(size_t row) {
   const DepthTolerance tolerance = tolerance_;
   const size_t end = (row + kRows) * stride_;
-  std::uint32_t seen = 0;
   for (size_t i = row * stride_; i < end; ++i) {
     const float allowed = 2.0F * tolerance.errorAt(depths_[i]);
     const float kept = std::isnan(remembered_[i]) ? depths_[i] : remembered_[i];
     remembered_[i] = std::abs(nearer_[i] - nearer_before_[i]) <= allowed ? depths_[i] : kept;
-    seen += std::isnan(depths_[i]) ? 0U : 1U;
   }
   for (size_t i = row * stride_; i < end; ++i) {
     const float farthest = std::isnan(farthest_[i]) ? remembered_[i] : farthest_[i];
     farthest_[i] = remembered_[i] > farthest ? remembered_[i] : farthest;
   }
-  seen_ += seen;
 }
 
 void DepthSurface::hide(size_t tile) {
@@ -178,13 +187,12 @@ void DepthSurface::hide(size_t tile) {
     const float free_to = depths_[pixel] - 2.0F * tolerance_.errorAt(depths_[pixel]);  // the robot is seen there
     if (remembered_[pixel] < free_to) remembered_[pixel] = farthest_[pixel];
     setDepth(pixel, remembered_[pixel] < free_to ? kNothing : remembered_[pixel]);
-    hidden_ += std::isnan(depths_[pixel]) ? 0 : 1;
   }
   const size_t row = tile / grid_.tileColumns() * kRows;
   const size_t column = tile % grid_.tileColumns() * kColumns;
   for (size_t i = 0; i < kRows; ++i) {
     const size_t place = tile * Grid::kTilePixels + i * kColumns;
-    placeRow(column, row + i, &places_F_[3 * (place == 0 ? 0 : place - 1)], &places_F_[3 * place]);
+    placeRow(column, row + i, &places_F_[3 * (beginsHalf(place) ? place : place - 1)], &places_F_[3 * place]);
   }
 }
 
@@ -200,13 +208,11 @@ void DepthSurface::forgetGone(float reach) {
     const bool known = farthest_[pixel] > remembered_[pixel] + 2.0F * tolerance_.errorAt(remembered_[pixel]);
     remembered_[pixel] = known ? farthest_[pixel] : kNothing;
     setDepth(pixel, remembered_[pixel]);
-    seen_ -= known ? 0 : 1;
-    hidden_ -= known ? 0 : 1;
   }
   for (size_t row = 0; row < y_.size() && !gone.empty(); row += kRows) {
     placeTiles(row);
     findMotion(row, reach);
-    findTriangles(row);
+    findTriangles(row, halves_[0].pairs);
   }
 }
 
@@ -233,47 +239,10 @@ void DepthSurface::endMotions(float reach, size_t pixel, size_t place) {
   }
 }
 
-DepthSurface::Expected DepthSurface::compare(const std::vector<float>& depths,
-                                             const std::vector<Eigen::Vector3d>& points_F, double distance) const {
-  const Eigen::Isometry3d X_CF = X_FC_.inverse();
-  Expected expected;
-  for (const Eigen::Vector3d& p_F : points_F) {
-    const Eigen::Vector3d p_C = X_CF * p_F;
-    if (!(p_C.z() > options_.nearest && p_C.z() < options_.farthest)) continue;
-    const double u = std::round(camera_.fx * p_C.x() / p_C.z() + camera_.cx);
-    const double v = std::round(camera_.fy * p_C.y() / p_C.z() + camera_.cy);
-    if (!(u >= 0.0 && u < grid_.width() && v >= 0.0 && v < grid_.height())) continue;
-    const auto column = static_cast<std::uint32_t>(u);
-    const auto row = static_cast<std::uint32_t>(v);
-    const bool found = showsSelf(depths, column, row, std::ceil(camera_.fx * distance / p_C.z()));
-    const float depth = depths[size_t{row} * grid_.width() + column];
-    if (std::isnan(depth) || (!found && depth <= p_C.z())) continue;
-    ++expected.points;
-    expected.found += found ? 1 : 0;
-  }
-  return expected;
-}
-
-// At a pixel, or at most as far from it along row and column.
-bool DepthSurface::showsSelf(const std::vector<float>& depths, std::uint32_t column, std::uint32_t row,
-                             double pixels) const {
-  const auto from = [pixels](std::uint32_t at) { return static_cast<std::uint32_t>(std::max(0.0, at - pixels)); };
-  const auto to = [pixels](std::uint32_t at, std::uint32_t end) {
-    return static_cast<std::uint32_t>(std::min(end - 1.0, at + pixels));
-  };
-  for (std::uint32_t v = from(row); v <= to(row, grid_.height()); ++v) {
-    for (std::uint32_t u = from(column); u <= to(column, grid_.width()); ++u) {
-      if (self_.hides(u, v) && depths[size_t{v} * grid_.width() + u] <= static_cast<float>(options_.farthest))
-        return true;
-    }
-  }
-  return false;
-}
-
 void DepthSurface::placeTiles(size_t row) {
   const Eigen::Vector3f p_FC = X_FC_.translation().cast<float>();
   size_t place = placeOf(row);
-  const float* before_F = place == 0 ? p_FC.data() : &places_F_[3 * (place - 1)];
+  const float* before_F = beginsHalf(place) ? p_FC.data() : &places_F_[3 * (place - 1)];
   for (size_t u = 0; u < x_.size(); u += kColumns) {
     for (size_t v = row; v < row + kRows; ++v, place += kColumns) {
       placeRow(u, v, before_F, &places_F_[3 * place]);
@@ -282,15 +251,24 @@ void DepthSurface::placeTiles(size_t row) {
   }
 }
 
-// Those before the first that is seen.
+// Those of a half before the first that is seen.
 void DepthSurface::placeUnseen() {
-  const size_t all = grid_.places();
-  size_t first = 0;
-  while (first < all && !isSeen(first)) ++first;
-  if (first == all) return;
+  const size_t middle = placeOf(halves_[1].first);
+  if (middle > 0) place(middle, firstSeen(middle), middle - 1);
+  const size_t first = firstSeen(0);
+  if (first < grid_.places()) place(0, first, first);
+}
+
+// From place `begin` to `end`, all are where one is.
+void DepthSurface::place(size_t begin, size_t end, size_t where) {
   for (std::vector<float>* const places_F : {&places_F_, &before_F_, &places_before_F_}) {
-    for (size_t i = 0; i < first; ++i) std::copy_n(&places_F_[3 * first], 3, &(*places_F)[3 * i]);
+    for (size_t i = begin; i < end; ++i) std::copy_n(&(*places_F)[3 * where], 3, &(*places_F)[3 * i]);
   }
+}
+
+size_t DepthSurface::firstSeen(size_t place) const {
+  while (place < grid_.places() && !isSeen(place)) ++place;
+  return place;
 }
 
 bool DepthSurface::isSeen(size_t place) const {
@@ -316,10 +294,10 @@ void DepthSurface::placeRow(size_t column, size_t row, const float* before_F, fl
   }
 }
 
-void DepthSurface::findTriangles(size_t row) {
-  for (size_t i = 0; i < kRows; ++i) findPairs((row + i) * stride_, &pairs_[i * stride_]);
+void DepthSurface::findTriangles(size_t row, std::vector<std::uint8_t>& pairs) {
+  for (size_t i = 0; i < kRows; ++i) findPairs((row + i) * stride_, &pairs[i * stride_]);
   size_t tile = row / kRows * grid_.tileColumns();
-  for (size_t u = 0; u < x_.size(); u += kColumns) existing_[tile++] = trianglesAt(u);
+  for (size_t u = 0; u < x_.size(); u += kColumns) existing_[tile++] = trianglesAt(u, pairs);
 }
 
 // What is compared with NaN is no neighbor.
@@ -338,11 +316,11 @@ void DepthSurface::findPairs(size_t first, std::uint8_t* pairs) const {
   }
 }
 
-std::uint64_t DepthSurface::trianglesAt(size_t column) const {
+std::uint64_t DepthSurface::trianglesAt(size_t column, const std::vector<std::uint8_t>& pairs) const {
   std::uint64_t bits = 0;
   for (size_t row = 0; row < kRows; ++row) {
     for (size_t i = 0; i < kColumns; ++i)
-      bits |= std::uint64_t{pairs_[row * stride_ + column + i]} << (2 * (row * kColumns + i));
+      bits |= std::uint64_t{pairs[row * stride_ + column + i]} << (2 * (row * kColumns + i));
   }
   return bits;
 }

@@ -35,7 +35,8 @@ struct DepthOptions {
 /// A larger change says that something came or went. A camera rests as long as no point that it may see moves by more than kStill in
 /// the picture.
 ///
-/// Reads and writes each pixel once, a row of tiles after the other, and allocates nothing once it is made.
+/// Reads and writes each pixel once, a row of tiles after the other, on two threads. Once it is made, an image allocates what the
+/// second thread takes.
 class DepthSurface {
  public:
   static constexpr double kStill = 1e-5;  ///< [m]; where it rests, its vertices are as far from where they are
@@ -61,9 +62,9 @@ class DepthSurface {
   /// Returns what the newest image shows to be free, less the margin. While the camera rests, also what it showed to be free before
   /// the robot hid it. Null before the first image.
   std::shared_ptr<const FreeSpace> freeSpace() const { return free_.newest(); }
-  size_t seen() const { return seen_; }          ///< pixels of the newest image that are vertices
+  size_t seen() const;                           ///< pixels of the newest image that are vertices
   size_t self() const { return self_.count(); }  ///< pixels of the newest image that the robot hides
-  size_t hidden() const { return hidden_; }      ///< those of them that are vertices: where it was seen last
+  size_t hidden() const;                         ///< those of them that are vertices: where it was seen last
   bool rests() const { return rests_; }          ///< the camera, since the image before
 
   /// Points of the robot that the newest image has to show, and how many it shows where they are expected.
@@ -87,42 +88,53 @@ class DepthSurface {
   static constexpr size_t kColumns = Grid::kTileColumns;
   static constexpr size_t kRows = Grid::kTileRows;
 
+  // That one thread takes: pixels, in whole rows of tiles.
+  struct Rows {
+    size_t first, end;
+    std::vector<std::uint8_t>
+        pairs;  // of triangles of each pixel in a row of tiles: bits 0 and 1 are set if they exist
+  };
+
   void findRest(const Eigen::Isometry3d& X_FC);
   void forget();
   void readRow(const std::vector<float>& depths, size_t row);
   void setDepth(size_t pixel, float depth);
   void beginSelf(const std::vector<SweptVolume>& bodies_F);
+  void takeRows(const std::vector<float>& depths, float reach, Rows& rows);
   // The following take the first of the rows of pixels in a row of tiles.
   void placeTiles(size_t row);
   void hideSelf(size_t row);
   void remember(size_t row);
   void findMotion(size_t row, float reach);
-  void findTriangles(size_t row);
+  void findTriangles(size_t row, std::vector<std::uint8_t>& pairs);
   size_t placeOf(size_t row) const { return row * grid_.tileColumns() * kColumns; }  // first of its tiles
+  bool beginsHalf(size_t place) const { return place == 0 || place == placeOf(halves_[1].first); }
   void hide(size_t tile);
   bool showsSelf(const std::vector<float>& depths, std::uint32_t column, std::uint32_t row, double pixels) const;
   void endMotions(float reach, size_t pixel, size_t place);
   // Those in a row of a tile. Where nothing is seen, that of the place before.
   void placeRow(size_t column, size_t row, const float* before_F, float* places_F) const;
   void placeUnseen();
+  void place(size_t begin, size_t end, size_t where);
+  size_t firstSeen(size_t place) const;
   void forgetGone(float reach);
   bool isSeen(size_t place) const;
   void findPairs(size_t first, std::uint8_t* pairs) const;
-  std::uint64_t trianglesAt(size_t column) const;
+  std::uint64_t trianglesAt(size_t column, const std::vector<std::uint8_t>& pairs) const;
 
   const Grid grid_;
   const Pinhole camera_;
   const DepthOptions options_;
   const DepthTolerance tolerance_;
-  std::vector<double> x_;            // of a ray at depth 1, by column of the tiles
-  std::vector<double> y_;            // by row
-  const size_t stride_;              // of the rows of the following, which have a column and a row more than the tiles
-  std::vector<float> inverse_;       // of the length of a ray up to depth 1; 0: beyond the image
-  std::vector<float> depths_;        // NaN: not seen
-  std::vector<float> nearer_;        // depth less the margin [m]; NaN: not seen
-  std::vector<std::uint8_t> pairs_;  // of triangles of each pixel in a row of tiles: bits 0 and 1 are set if they exist
-  std::vector<float> remembered_;    // depth where a pixel last showed something else than the robot; NaN: never
-  std::vector<float> farthest_;      // that was remembered; NaN: none
+  std::vector<double> x_;       // of a ray at depth 1, by column of the tiles
+  std::vector<double> y_;       // by row
+  const size_t stride_;         // of the rows of the following, which have a column and a row more than the tiles
+  std::vector<float> inverse_;  // of the length of a ray up to depth 1; 0: beyond the image
+  std::vector<float> depths_;   // NaN: not seen
+  std::vector<float> nearer_;   // depth less the margin [m]; NaN: not seen
+  std::array<Rows, 2> halves_;
+  std::vector<float> remembered_;     // depth where a pixel last showed something else than the robot; NaN: never
+  std::vector<float> farthest_;       // that was remembered; NaN: none
   std::vector<float> nearer_before_;  // of the image before; NaN: not seen, or nothing is known of it
   std::vector<float> places_before_F_;
   std::vector<float> places_F_;
@@ -134,8 +146,6 @@ class DepthSurface {
   GonePixels gone_;
   std::vector<SweptVolume> bodies_F_;  // with the margin
   FreeMemory free_;
-  size_t seen_ = 0;
-  size_t hidden_ = 0;
 };
 
 }  // namespace sweep_guard_core

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace sweep_guard_core {
@@ -43,7 +44,6 @@ void SelfPixels::begin(const Eigen::Isometry3d& X_FC, const std::vector<SweptVol
     bodies_.push_back({body_F, planesOf(body_F), bounds});
   }
   tiles_.assign(grid_.tiles(), 0);
-  count_ = 0;
 }
 
 void SelfPixels::find(const SeenVertices& seen, size_t tile_row) {
@@ -57,8 +57,12 @@ void SelfPixels::find(const SeenVertices& seen, size_t tile_row) {
     const std::uint32_t bottom = std::min(bounds.bottom, top + Grid::kTileRows);
     for (std::uint32_t v = std::max(bounds.top, top); v < bottom; ++v) addCast(seen, body, v);
   }
-  for (size_t tile = first; tile < first + grid_.tileColumns(); ++tile)
-    count_ += static_cast<size_t>(__builtin_popcount(tiles_[tile]));
+}
+
+size_t SelfPixels::count() const {
+  return std::accumulate(tiles_.begin(), tiles_.end(), size_t{0}, [](size_t sum, std::uint32_t tile) {
+    return sum + static_cast<size_t>(__builtin_popcount(tile));
+  });
 }
 
 void SelfPixels::addShown(const SeenVertices& seen, const Body& body, size_t tile) {

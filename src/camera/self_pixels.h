@@ -30,7 +30,7 @@ class SelfPixels {
   /// @param bodies_F  convex volumes around the bodies, as much larger as what is near to them counts as the robot
   void begin(const Eigen::Isometry3d& X_FC, const std::vector<SweptVolume>& bodies_F);
 
-  /// Finds the pixels in a row of tiles, where a body may be in the picture.
+  /// Finds the pixels in a row of tiles, where a body may be in the picture. Several threads may, each in other rows.
   void find(const SeenVertices& seen, size_t tile_row);
 
   /// Returns for each tile of the grid a bit for each of its pixels.
@@ -39,7 +39,17 @@ class SelfPixels {
     const std::uint32_t place = grid_.place(column, row);
     return (tiles_[place / Grid::kTilePixels] >> place % Grid::kTilePixels & 1U) != 0;
   }
-  size_t count() const { return count_; }  ///< pixels found
+  size_t count() const;  ///< pixels found
+  /// Calls function(column, row) with each of them.
+  template <typename Function>
+  void forEach(const Function& function) const {
+    for (size_t tile = 0; tile < tiles_.size(); ++tile) {
+      for (std::uint32_t left = tiles_[tile]; left != 0; left &= left - 1) {
+        const auto [u, v] = grid_.pixel(tile, static_cast<std::uint32_t>(__builtin_ctz(left)));
+        function(u, v);
+      }
+    }
+  }
 
  private:
   // Where a body may be in the picture, and how far.
@@ -65,7 +75,6 @@ class SelfPixels {
   Eigen::Isometry3d X_FC_ = Eigen::Isometry3d::Identity();
   std::vector<Body> bodies_;
   std::vector<std::uint32_t> tiles_;
-  size_t count_ = 0;
 };
 
 }  // namespace sweep_guard_core

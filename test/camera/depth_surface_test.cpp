@@ -70,13 +70,15 @@ TEST_F(DepthSurfaceTest, NothingSeenHasNoTriangleAndIsWhereTheCameraIs) {
 }
 
 TEST_F(DepthSurfaceTest, PixelsThatSeeNothingMakeNoBoxLarger) {
-  std::vector<float> depths = wall(kNone);
-  for (std::uint32_t row = 10; row < 20; ++row) {
-    for (std::uint32_t column = 10; column < 20; ++column) at(depths, column, row) = 1.0F;
+  for (const auto& [first, end] : {std::pair(2U, 8U), std::pair(10U, 20U), std::pair(20U, 26U)}) {
+    std::vector<float> depths = wall(kNone);
+    for (std::uint32_t row = first; row < end; ++row) {
+      for (std::uint32_t column = 10; column < 20; ++column) at(depths, column, row) = 1.0F;
+    }
+    const Eigen::AlignedBox3d seen(onRay(10, first, 1.0), onRay(19, end - 1, 1.0));
+    const Eigen::AlignedBox3d box = take(depths).bounds_M();
+    EXPECT_TRUE(box.isApprox(seen, 1e-6)) << first;
   }
-  const Eigen::AlignedBox3d seen(onRay(10, 10, 1.0), onRay(19, 19, 1.0));
-  const Eigen::AlignedBox3d box = take(depths).bounds_M();
-  EXPECT_TRUE(box.isApprox(seen, 1e-6));
 }
 
 TEST_F(DepthSurfaceTest, AStepIsTheEdgeOfWhatIsSeenAndASteepSurfaceIsNone) {
@@ -364,7 +366,7 @@ TEST_F(DepthMotionTest, APointIsFoundIfTheRobotIsSeenAsNearAsTheBodiesWereGrown)
   EXPECT_EQ(surface_.compare(robot, points, 0.02).found, 1U);
 }
 
-TEST_F(DepthSurfaceTest, AnImageAllocatesNothing) {
+TEST_F(DepthSurfaceTest, AnImageAllocatesNoMoreThanItsSecondThread) {
   DepthSurface surface(grid_, kCamera, kExact);
   TriangleMesh mesh_F(grid_);
   const std::vector<float> depths = wall(1.0F);
@@ -373,7 +375,8 @@ TEST_F(DepthSurfaceTest, AnImageAllocatesNothing) {
   const Allocations allocations;
   surface.take(depths, Eigen::Isometry3d::Identity());
   mesh_F.deform(surface.places_F(), surface.before_F(), surface.existing());
-  EXPECT_EQ(allocations.count(), 0U) << allocations.stacks();
+  EXPECT_LE(allocations.count(), 3U) << allocations.stacks();
+  EXPECT_LT(allocations.largest(), 1000U) << allocations.stacks();
 }
 
 TEST_F(DepthSurfaceTest, ACameraOrARangeThatIsNoneIsRefused) {

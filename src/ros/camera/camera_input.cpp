@@ -104,7 +104,6 @@ void CameraInput::keepShares(const sweep_guard_core::Timestamps& image) {
 
 template <typename Msg>
 void CameraInput::take(const Msg& msg, SteadyTime received) {
-  std::shared_ptr<Workpiece> image;
   try {
     checkHeader(msg.header);
     const Time stamp = fromMsg(msg.header.stamp);
@@ -114,18 +113,18 @@ void CameraInput::take(const Msg& msg, SteadyTime received) {
     surface_->take(depths_, X_WC, secondsSince(stamp), self_.at(stamp, camera_.self_padding));
     newest_ = stamp;
     ++number_;
-    keepShares({stamp, received});
-    points_.publish(*surface_, depths_, stamp);
-    image = unusedImage();
+    auto image = unusedImage();
     image->mesh_M.deform(surface_->places_F(), surface_->before_F(), surface_->existing());
     image->stamp = stamp;
     image->received = received;
     image->updates = number_;
     image->free_space = surface_->freeSpace();
+    if (!dependencies_.show(image)) drop(received);
+    keepShares({stamp, received});
+    points_.publish(*surface_, depths_, stamp);
   } catch (const std::exception& error) {  // invalid, no transform, or out of memory
-    return refuse(error.what(), received);
+    refuse(error.what(), received);
   }
-  if (!dependencies_.show(image)) drop(received);
 }
 
 // Begins anew with a camera of another size or calibration, and after another tool, in whose place the surroundings were seen.
