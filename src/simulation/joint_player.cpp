@@ -1,9 +1,7 @@
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
 #include <tf2_eigen/tf2_eigen.h>
-#include <tf2_ros/buffer.h>
 #include <tf2_ros/static_transform_broadcaster.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <optional>
 #include <string>
@@ -42,8 +40,7 @@ class JointPlayer {
         loop_(parameters.flag("loop", true)),
         min_subscribers_(parameters.integer("min_subscribers", 1, 0, 100)),
         guard_(sweep_guard_ros::loadParameters(ros::NodeHandle(parameters.name("guard", "sweep_guard")))),
-        listener_(buffer_),
-        start_(frame_, buffer_) {
+        start_(frame_) {
     if (guard_.tool_source != sweep_guard_ros::ToolSource::kJointStates) {
       throw InvalidInput("no joints move the tool of the guard; set its tool_source to joint_states");
     }
@@ -120,8 +117,6 @@ class JointPlayer {
   std::vector<StampedPositions> motion_;
   ros::NodeHandle node_;
   ros::Publisher publisher_;
-  tf2_ros::Buffer buffer_;
-  tf2_ros::TransformListener listener_;
   tf2_ros::StaticTransformBroadcaster broadcaster_;
   MotionStart start_;
 };

@@ -55,7 +55,7 @@ bool awaitDue(const PoseScheduler& scheduler, sweep_guard_core::Time stamp) {
   return sleepUntil(sweep_guard_ros::toMsg(scheduler.due(stamp)));
 }
 
-MotionStart::MotionStart(const std::string& frame, tf2_ros::Buffer& buffer) : frame_(frame), buffer_(buffer) {
+MotionStart::MotionStart(const std::string& frame) : frame_(frame) {
   const auto on_mesh = [this](const sweep_guard::DeformableMesh::ConstPtr& mesh) {
     if (!mesh->mesh.triangles.empty()) mesh_ = mesh;
   };

@@ -4,6 +4,7 @@
 #include <sweep_guard/DeformableMesh.h>
 #include <sweep_guard/Warning.h>
 #include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
 
 #include <Eigen/Core>
 #include <functional>
@@ -31,9 +32,8 @@ bool awaitDue(const PoseScheduler& scheduler, sweep_guard_core::Time stamp);
 /// subscribers. One thread.
 class MotionStart {
  public:
-  /// @param frame   tf frame W of the motion
-  /// @param buffer  must outlive it
-  MotionStart(const std::string& frame, tf2_ros::Buffer& buffer);
+  /// @param frame  tf frame W of the motion
+  explicit MotionStart(const std::string& frame);
 
   // Each returns false if the node ends before.
   bool awaitWorkpiece();
@@ -45,13 +45,16 @@ class MotionStart {
   const Eigen::Vector3d& center_W() const { return center_W_; }              ///< [m] origin of its frame, as mesh_W()
   const std::string& meshId() const { return mesh_->id; }                    ///< after awaitWorkpiece()
 
-  void stopListening();
+  void stopListening();  ///< to workpiece and warnings
+
+  const tf2_ros::Buffer& transforms() const { return buffer_; }  ///< as they come
 
  private:
   bool locate();
 
   std::string frame_;
-  tf2_ros::Buffer& buffer_;
+  tf2_ros::Buffer buffer_;
+  tf2_ros::TransformListener listener_{buffer_};
   sweep_guard::DeformableMesh::ConstPtr mesh_;
   std::optional<sweep_guard_core::TriangleMesh> mesh_W_;
   Eigen::Vector3d center_W_ = Eigen::Vector3d::Zero();

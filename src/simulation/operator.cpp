@@ -1,8 +1,6 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <ros/ros.h>
 #include <tf2_eigen/tf2_eigen.h>
-#include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <array>
 #include <memory>
@@ -65,8 +63,7 @@ class OperatorNode {
         min_subscribers_(parameters.integer("min_subscribers", 1, 0, 100)),
         intend_(parameters.flag("intend", false)),
         guard_(parameters.text("guard", "")),
-        listener_(buffer_),
-        start_(frame_, buffer_) {
+        start_(frame_) {
     if (input_ == "recording") readMotion();
     publisher_ = node_.advertise<geometry_msgs::PoseStamped>("tool_pose", kQueue);
   }
@@ -125,7 +122,8 @@ class OperatorNode {
       joy_guide_.emplace(node_, joystick_, acknowledge_button_);
       return guidedBy(tip, [this](GuidedTip& moving, double dt) { joy_guide_->move(moving, dt); });
     }
-    marker_guide_ = std::make_unique<MarkerGuide>(ros::names::resolve("~marker"), frame_, tip.pose(), buffer_);
+    marker_guide_ =
+        std::make_unique<MarkerGuide>(ros::names::resolve("~marker"), frame_, tip.pose(), start_.transforms());
     return guidedBy(tip, [this](GuidedTip& moving, double dt) { marker_guide_->move(moving, dt); });
   }
 
@@ -221,8 +219,6 @@ class OperatorNode {
   double radial_extent_ = 0.0;                        // [m]
   ros::NodeHandle node_;
   ros::Publisher publisher_;
-  tf2_ros::Buffer buffer_;
-  tf2_ros::TransformListener listener_;
   MotionStart start_;
   bool stalled_ = false;  // since the last motion of the tip
   std::optional<JoyGuide> joy_guide_;
