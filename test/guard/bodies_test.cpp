@@ -5,6 +5,7 @@
 #include "guard/body_prediction.h"
 #include "guard/fake_detector.h"
 #include "guard/guard_results.h"
+#include "guard/planar_arm.h"
 #include "guard/times.h"
 #include "guard/triangle_set.h"
 #include "kinematics/random_robot.h"
@@ -339,26 +340,10 @@ TEST_F(TwoBallsTest, ContactOfOneAsIntendedDoesNotHideThatOfTheOther) {
   EXPECT_TRUE(both.objects[0].result.intended.empty());
 }
 
-// Two links of 0.4 m; the elbow of the upper one is thick, the lower one is folded back.
-Robot foldedArm() {
-  std::vector<TreeLink> links(2);
-  std::vector<std::pair<size_t, std::vector<ConvexPiece>>> pieces;
-  for (size_t i = 0; i < 2; ++i) {
-    links[i].name = i == 0 ? "upper" : "fore";
-    links[i].type = JointType::kRevolute;
-    links[i].variable = i;
-    const Eigen::Isometry3d middle(Eigen::Translation3d(0.2, 0.0, 0.0));
-    pieces.push_back({i, {{links[i].name, ConvexShape::box({0.2, 0.02, 0.02}).placed(middle)}}});
-  }
-  links[1].parent = 0;
-  links[1].X_PJ.translation().x() = 0.4;
-  pieces[0].second.push_back({"upper", ConvexShape::sphere(0.05).placed(Eigen::Isometry3d(links[1].X_PJ))});
-  return robotOf({{{"shoulder"}, {"elbow"}}, links}, pieces);
-}
-
-// The shoulder turns at 0.5 rad/s towards a sheet 0.3 m to its side: the elbow comes to it after 1.35 s, the tip never does.
+// The elbow is thick, and the lower link is folded back. The shoulder turns at 0.5 rad/s towards a sheet 0.3 m to its side: the
+// elbow comes to it after 1.35 s, the tip never does.
 TEST(ArmBesideASheetTest, AContactOfTheElbowIsPredictedAhead) {
-  const auto robot = std::make_shared<const Robot>(foldedArm());
+  const auto robot = planarArm({"elbow"}, {{"upper", ConvexShape::sphere(0.05).placed(along(0.4))}});
   GuardOptions options;
   options.clock = [] { return SteadyTime(); };
   for (const char* predictor : {"direct", "polynomial", "constant_velocity"}) {

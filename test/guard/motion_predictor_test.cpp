@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "guard/planar_arm.h"
 #include "guard/times.h"
 #include "kinematics/random_robot.h"
 #include "prediction/motion_space.h"
@@ -21,23 +22,6 @@ std::shared_ptr<const Robot> robotWith(KinematicTree tree) {
   for (size_t link = 0; link < tree.links().size(); ++link)
     pieces.push_back({link, {{"link", ConvexShape::sphere(0.02)}}});
   return std::make_shared<const Robot>(robotOf(std::move(tree), pieces));
-}
-
-// Two links of 0.4 m in the plane of x and y, at x from their joints on.
-std::shared_ptr<const Robot> planarArm(const JointVariable& elbow = {"elbow"}) {
-  std::vector<TreeLink> links(2);
-  std::vector<std::pair<size_t, std::vector<ConvexPiece>>> pieces;
-  for (size_t i = 0; i < 2; ++i) {
-    links[i].name = i == 0 ? "upper" : "fore";
-    links[i].type = JointType::kRevolute;
-    links[i].variable = i;
-    const Eigen::Isometry3d X =
-        Eigen::Translation3d(0.2, 0.0, 0.0) * Eigen::AngleAxisd(M_PI_2, Eigen::Vector3d::UnitY());
-    pieces.push_back({i, {{links[i].name, ConvexShape::box({0.02, 0.02, 0.2}).placed(X)}}});
-  }
-  links[1].parent = 0;
-  links[1].X_PJ.translation().x() = 0.4;
-  return std::make_shared<const Robot>(robotOf({{{"shoulder"}, elbow}, links}, pieces));
 }
 
 PoseWithFrames poseAt(const Robot& robot, double seconds, const RobotState& state) {
