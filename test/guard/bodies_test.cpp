@@ -5,9 +5,9 @@
 #include "guard/body_prediction.h"
 #include "guard/fake_detector.h"
 #include "guard/guard_results.h"
-#include "guard/planar_arm.h"
 #include "guard/times.h"
 #include "guard/triangle_set.h"
+#include "guard/two_links.h"
 #include "kinematics/random_robot.h"
 #include "scenes.h"
 #include "sweep_guard/kinematics/robot_path.h"
@@ -240,16 +240,9 @@ TEST_F(BodiesTest, AnyOfThemIsNearAWorkpiece) {
 
 // Balls that slide along z, half a metre apart.
 std::shared_ptr<const Robot> twoBalls(const std::string& first, const std::string& second) {
-  std::vector<TreeLink> links(2);
-  std::vector<std::pair<size_t, std::vector<ConvexPiece>>> pieces;
-  for (size_t i = 0; i < 2; ++i) {
-    links[i].name = i == 0 ? first : second;
-    links[i].type = JointType::kPrismatic;
-    links[i].variable = i;
-    links[i].X_PJ.translation().x() = 0.5 * static_cast<double>(i);
-    pieces.push_back({i, {{links[i].name, ConvexShape::sphere(0.01)}}});
-  }
-  return std::make_shared<const Robot>(robotOf({{{"one"}, {"other"}}, links}, pieces));
+  TwoLinks balls(first, second, JointType::kPrismatic, ConvexShape::sphere(0.01));
+  balls.links[1].X_PJ = along(0.5);
+  return balls.robot();
 }
 
 // Over a triangle.
@@ -343,7 +336,9 @@ TEST_F(TwoBallsTest, ContactOfOneAsIntendedDoesNotHideThatOfTheOther) {
 // The elbow is thick, and the lower link is folded back. The shoulder turns at 0.5 rad/s towards a sheet 0.3 m to its side: the
 // elbow comes to it after 1.35 s, the tip never does.
 TEST(ArmBesideASheetTest, AContactOfTheElbowIsPredictedAhead) {
-  const auto robot = planarArm({"elbow"}, {{"upper", ConvexShape::sphere(0.05).placed(along(0.4))}});
+  TwoLinks arm = planarArm();
+  arm.pieces[0].second.push_back({"upper", ConvexShape::sphere(0.05).placed(along(0.4))});
+  const auto robot = arm.robot();
   GuardOptions options;
   options.clock = [] { return SteadyTime(); };
   for (const char* predictor : {"direct", "polynomial", "constant_velocity"}) {

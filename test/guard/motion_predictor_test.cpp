@@ -6,8 +6,8 @@
 #include <cmath>
 #include <functional>
 
-#include "guard/planar_arm.h"
 #include "guard/times.h"
+#include "guard/two_links.h"
 #include "kinematics/random_robot.h"
 #include "prediction/motion_space.h"
 #include "scenes.h"
@@ -104,7 +104,7 @@ TEST(MotionPredictorTest, BodiesOfJointsAtConstantSpeedArePredictedExactly) {
 
 // A link of which only the pose were predicted would go on through its limit.
 TEST(MotionPredictorTest, BodiesStopWhereTheirJointsDo) {
-  const auto robot = planarArm({"elbow", -2.0, 0.5});
+  const auto robot = planarArm().robot({"shoulder"}, {"elbow", -2.0, 0.5});
   MotionPredictor predictor(optionsOf("constant_velocity"), robot);
   const auto bends = [](double t) { return RobotState{Eigen::Isometry3d::Identity(), {0.0, 0.1 + 0.6 * t}}; };
   const PredictedMotion motion = predicted(predictor, *robot, bends, 0.5);
@@ -113,7 +113,7 @@ TEST(MotionPredictorTest, BodiesStopWhereTheirJointsDo) {
 }
 
 TEST(MotionPredictorTest, TheJointsOfARobotMayCountTheirTurnsAnew) {
-  const auto robot = planarArm({"elbow", -INFINITY, INFINITY, /*continuous=*/true});
+  const auto robot = planarArm().robot({"shoulder"}, {"elbow", -INFINITY, INFINITY, /*continuous=*/true});
   MotionPredictor predictor(optionsOf("direct"), robot);
   const auto turns = [](double t) {
     return RobotState{Eigen::Isometry3d::Identity(), {0.0, std::remainder(2.0 * t, 2.0 * M_PI)}};
@@ -182,7 +182,7 @@ TEST(MotionPredictorTest, ItsCovariancesAreThoseOfErrorsOfJointsAndRoot) {
 // Both joints at 3 rad/s: in 0.1 s, the end of the arm leaves its chord by 3 cm. In a step that was cut, no point leaves
 // the Motion of its body by more than is said.
 TEST(MotionPredictorTest, StepsInWhichABodyLeavesItsMotionAreCutAndSaySo) {
-  const auto robot = planarArm();
+  const auto robot = planarArm().robot();
   MotionPredictor predictor(optionsOf("constant_velocity"), robot);
   const StateAt truth = [](double t) { return RobotState{Eigen::Isometry3d::Identity(), {3.0 * t, 3.0 * t}}; };
   const PredictedMotion motion = predicted(predictor, *robot, truth, 0.5);
@@ -210,7 +210,7 @@ TEST(MotionPredictorTest, StepsInWhichABodyLeavesItsMotionAreCutAndSaySo) {
 
 // The elbow turns back after 0.3 s, which nothing measured tells.
 TEST(MotionPredictorTest, ATrajectoryUnderWayIsPredictedInStepsOf20Milliseconds) {
-  const auto robot = planarArm();
+  const auto robot = planarArm().robot();
   const StateAt truth = [](double t) {
     return RobotState{Eigen::Isometry3d::Identity(), {0.0, t < 0.8 ? t : 1.6 - t}};
   };
@@ -236,7 +236,7 @@ TEST(MotionPredictorTest, ATrajectoryUnderWayIsPredictedInStepsOf20Milliseconds)
 }
 
 TEST(MotionPredictorTest, ARobotThatLeavesItsTrajectoryIsPredictedAsMeasured) {
-  const auto robot = planarArm();
+  const auto robot = planarArm().robot();
   const StateAt rests = [](double) { return RobotState{Eigen::Isometry3d::Identity(), {0.0, 0.0}}; };
   MotionPredictor predictor(optionsOf("constant_velocity"), robot);
   PredictedMotion motion = predicted(predictor, *robot, rests, 0.5);
@@ -249,7 +249,7 @@ TEST(MotionPredictorTest, ARobotThatLeavesItsTrajectoryIsPredictedAsMeasured) {
 }
 
 TEST(MotionPredictorTest, AllPathsAreEmptyUntilTheMotionOfEveryJointIsKnown) {
-  const auto robot = planarArm();
+  const auto robot = planarArm().robot();
   MotionPredictor predictor({}, robot);
   PredictedMotion motion;
   motion.from = poseAt(*robot, 0.0, {Eigen::Isometry3d::Identity(), {0.0, 0.0}});
