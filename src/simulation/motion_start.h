@@ -13,6 +13,7 @@
 
 #include "simulation/pose_scheduler.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
+#include "sweep_guard/ros/parameters/parameter_reader.h"
 
 namespace sweep_guard_simulation {
 
@@ -32,15 +33,16 @@ bool awaitDue(const PoseScheduler& scheduler, sweep_guard_core::Time stamp);
 /// subscribers. One thread.
 class MotionStart {
  public:
-  /// @param frame  tf frame W of the motion
-  explicit MotionStart(const std::string& frame);
+  /// Reads `frame`, the tf frame W of the motion, and `min_subscribers`, for how many to wait.
+  /// @throws sweep_guard_core::InvalidInput as ParameterReader
+  explicit MotionStart(sweep_guard_ros::ParameterReader& parameters);
 
   // Each returns false if the node ends before.
   bool awaitWorkpiece();
   bool awaitGuard();
-  /// @param count  of subscribers
-  static bool awaitSubscribers(const ros::Publisher& publisher, int count);
+  bool awaitSubscribers(const ros::Publisher& publisher) const;
 
+  const std::string& frame() const { return frame_; }
   const sweep_guard_core::TriangleMesh& mesh_W() const { return *mesh_W_; }  ///< after awaitWorkpiece()
   const Eigen::Vector3d& center_W() const { return center_W_; }              ///< [m] origin of its frame, as mesh_W()
   const std::string& meshId() const { return mesh_->id; }                    ///< after awaitWorkpiece()
@@ -53,6 +55,7 @@ class MotionStart {
   bool locate();
 
   std::string frame_;
+  int min_subscribers_;
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_{buffer_};
   sweep_guard::DeformableMesh::ConstPtr mesh_;
