@@ -76,18 +76,28 @@ class GuardThreadTest : public ::testing::Test {
     std::function<bool()> is_due;
     std::function<void()> run;
   };
-  // Runs each step once, in the guard's thread, when the detector is asked while it is due and those before have begun.
-  void inTurn(std::vector<Step> steps) {
+  // Pushes a pose in a prediction. Then runs each step once, in the guard's thread, when the detector is asked while it is due and
+  // those before have begun.
+  void pushInPredictionAndThen(std::vector<Step> steps) {
+    push();
+    passTheQueue();
+    steps.insert(steps.begin(), {[this] { return inPrediction(); },
+                                 [this] {
+                                   predictions_before_ = predictionsMade();
+                                   push();
+                                 }});
     record_.asked = [this, steps = std::move(steps)] {
       if (begun_ < steps.size() && steps[begun_].is_due()) steps[begun_++].run();
     };
+    push();
   }
 
   sweep_guard_core::Time stamp_;
   int pushed_ = 0;
   sweep_guard_core::FakeDetector::Record record_;
   std::thread::id shapes_made_by_;
-  size_t begun_ = 0;          // steps; used by the guard's thread only, as the next one
+  size_t begun_ = 0;  // steps; used by the guard's thread only, as the next two
+  std::uint64_t predictions_before_ = 0;
   bool interrupted_ = false;  // a prediction; used by the guard's thread only
   ros::NodeHandle node_ = privateNode();
   LiveParameters parameters_{loadParameters(node_)};
@@ -114,22 +124,13 @@ class GuardThreadTest : public ::testing::Test {
 
 // A pose comes during a prediction, so that another one follows. Two come during that. The first sweep takes longer than a prediction may be held up, so the second pose is left for the time after it.
 TEST_F(GuardThreadTest, APoseThatIsLeftWhenAPredictionGoesOnIsSweptAfterIt) {
-  push();
-  passTheQueue();
-  std::uint64_t before = 0;
-  inTurn({{[&] { return inPrediction(); },
-           [&] {
-             before = predictionsMade();
-             push();
-           }},
-          {[&] { return inPrediction() && predictionsMade() > before; },
-           [&] {
-             push();
-             push(/*frame_is_known=*/false);  // else the first one would not be swept alone
-           }},
-          {[&] { return !inPrediction(); },
-           [] { std::this_thread::sleep_for(milliseconds(60)); }}});  // the time that this sweep takes
-  push();
+  pushInPredictionAndThen({{[&] { return inPrediction() && predictionsMade() > predictions_before_; },
+                            [&] {
+                              push();
+                              push(/*frame_is_known=*/false);  // else the first one would not be swept alone
+                            }},
+                           {[&] { return !inPrediction(); },
+                            [] { std::this_thread::sleep_for(milliseconds(60)); }}});  // the time that this sweep takes
   EXPECT_TRUE(await([&] { return begun_ == 3 && !queue_.waitingSince(); }));
   EXPECT_EQ(pushed_, 5);
   EXPECT_EQ(statistics_.take().sweeps_total, 5U);
@@ -176,17 +177,9 @@ TEST_F(GuardThreadTest, WhatWaitsWhenTimeJumpsIsSweptAndReported) {
 }
 
 TEST_F(GuardThreadTest, APredictionGoesOnAfterAPoseThatCameMeanwhileIsSwept) {
-  push();
-  passTheQueue();
-  std::uint64_t before = 0;
-  inTurn({{[&] { return inPrediction(); },
-           [&] {
-             before = predictionsMade();
-             push();
-           }},
-          {[&] { return !inPrediction(); }, [] {}},
-          {[&] { return inPrediction(); }, [&] { EXPECT_EQ(predictionsMade(), before); }}});
-  push();
+  pushInPredictionAndThen(
+      {{[&] { return !inPrediction(); }, [] {}},
+       {[&] { return inPrediction(); }, [&] { EXPECT_EQ(predictionsMade(), predictions_before_); }}});
   passTheQueue();
   EXPECT_EQ(begun_, 3U);
   EXPECT_EQ(statistics_.take().sweeps_total, 3U);
