@@ -104,7 +104,7 @@ TEST(MotionPredictorTest, BodiesOfJointsAtConstantSpeedArePredictedExactly) {
 
 // A link of which only the pose were predicted would go on through its limit.
 TEST(MotionPredictorTest, BodiesStopWhereTheirJointsDo) {
-  const auto robot = planarArm().robot({"shoulder"}, {"elbow", -2.0, 0.5});
+  const auto robot = planarArm({"elbow", -2.0, 0.5}).robot();
   MotionPredictor predictor(optionsOf("constant_velocity"), robot);
   const auto bends = [](double t) { return RobotState{Eigen::Isometry3d::Identity(), {0.0, 0.1 + 0.6 * t}}; };
   const PredictedMotion motion = predicted(predictor, *robot, bends, 0.5);
@@ -113,7 +113,7 @@ TEST(MotionPredictorTest, BodiesStopWhereTheirJointsDo) {
 }
 
 TEST(MotionPredictorTest, TheJointsOfARobotMayCountTheirTurnsAnew) {
-  const auto robot = planarArm().robot({"shoulder"}, {"elbow", -INFINITY, INFINITY, /*continuous=*/true});
+  const auto robot = planarArm({"elbow", -INFINITY, INFINITY, /*continuous=*/true}).robot();
   MotionPredictor predictor(optionsOf("direct"), robot);
   const auto turns = [](double t) {
     return RobotState{Eigen::Isometry3d::Identity(), {0.0, std::remainder(2.0 * t, 2.0 * M_PI)}};

@@ -23,18 +23,19 @@ struct TwoLinks {
     }
   }
 
-  std::shared_ptr<const Robot> robot(const JointVariable& first = {"one"},
-                                     const JointVariable& second = {"two"}) const {
-    return std::make_shared<const Robot>(robotOf({{first, second}, links}, pieces));
+  std::shared_ptr<const Robot> robot() const {
+    return std::make_shared<const Robot>(robotOf({variables, links}, pieces));
   }
 
+  std::vector<JointVariable> variables = {{"one"}, {"two"}};
   std::vector<TreeLink> links;
   std::vector<std::pair<size_t, std::vector<ConvexPiece>>> pieces;
 };
 
-/// Returns two links of 0.4 m in the plane of x and y, at x from their joints on: `upper` and `fore`, which hangs on it.
-inline TwoLinks planarArm() {
+/// Returns two links of 0.4 m in the plane of x and y, at x from their joints on: `upper`, which `shoulder` moves, and `fore`.
+inline TwoLinks planarArm(const JointVariable& elbow = {"elbow"}) {
   TwoLinks arm("upper", "fore", JointType::kRevolute, ConvexShape::box({0.2, 0.02, 0.02}).placed(along(0.2)));
+  arm.variables = {{"shoulder"}, elbow};
   arm.links[1].parent = 0;
   arm.links[1].X_PJ = along(0.4);
   return arm;

@@ -34,8 +34,8 @@ class MotionPermissionTest : public testing::Test {
   }
 
   // The tool may move with the oldest value, and stops at the next older one.
-  template <typename Instant>
-  void expectLimit(Instant& value, Instant oldest, Instant older, PermissionCause cause) {
+  template <typename TimePoint>
+  void expectLimit(TimePoint& value, TimePoint oldest, TimePoint older, PermissionCause cause) {
     value = oldest;
     expect(Permission::kLimited, PermissionCause::kGuarded);
     value = older;
