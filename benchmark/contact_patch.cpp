@@ -29,23 +29,9 @@ constexpr int kPoses = 1000;  // per second
 constexpr int kPredictionPeriod = 50;
 
 TriangleMesh sheet(double phase) {
-  std::vector<Eigen::Vector3d> vertices;
-  std::vector<Triangle> triangles;
-  for (std::uint32_t row = 0; row <= kCells; ++row) {
-    for (std::uint32_t column = 0; column <= kCells; ++column) {
-      const double x = kCell * (column - 0.5 * kCells);
-      const double y = kCell * (row - 0.5 * kCells);
-      vertices.emplace_back(x, y, 0.0005 * std::sin(200.0 * x + phase) * std::sin(150.0 * y - 0.7 * phase));
-    }
-  }
-  for (std::uint32_t row = 0; row < kCells; ++row) {
-    for (std::uint32_t column = 0; column < kCells; ++column) {
-      const std::uint32_t at = row * (kCells + 1) + column;
-      triangles.push_back({at, at + 1, at + kCells + 2});
-      triangles.push_back({at, at + kCells + 2, at + kCells + 1});
-    }
-  }
-  return TriangleMesh(vertices, triangles);
+  return gridSurface(kCells, kCells * kCell, [phase](double x, double y) {
+    return 0.0005 * std::sin(200.0 * x + phase) * std::sin(150.0 * y - 0.7 * phase);
+  });
 }
 
 struct Presser {

@@ -17,6 +17,15 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
   list(APPEND rounding -U__ARM_FEATURE_FMA)
 endif()
 
+# sweep_guard_rooms_if(OPTION FOLDER...) - adds the folders if the option is on
+macro(sweep_guard_rooms_if option)
+  if(${option})
+    foreach(room ${ARGN})
+      add_subdirectory(${room})
+    endforeach()
+  endif()
+endmacro()
+
 # sweep_guard_unite(TARGET) - compiles the sources of each folder as one, if SWEEP_GUARD_UNITY is on. A source that has the
 # property SKIP_UNITY_BUILD_INCLUSION or a UNITY_GROUP of its own keeps it
 function(sweep_guard_unite target)

@@ -25,17 +25,22 @@ CORNERS = [(-0.1, -0.1), (0.1, -0.1), (0.0, 0.1)]
 IDS = {'left': -1.0, 'right': -2.0}  # workpieces and their heights [m]
 
 
+def publish_at(rate, publisher, message):
+    """Publishes a message with the present time, again and again."""
+    rate = rospy.Rate(rate)
+    while not rospy.is_shutdown():
+        message.header.stamp = rospy.Time.now()
+        publisher.publish(message)
+        rate.sleep()
+
+
 def publish_poses():
     publisher = rospy.Publisher('tool_pose', PoseStamped, queue_size=10)
     pose = PoseStamped()
     pose.header.frame_id = 'world'
     pose.pose.position.z = 0.5
     pose.pose.orientation.x = 1.0
-    rate = rospy.Rate(100)
-    while not rospy.is_shutdown():
-        pose.header.stamp = rospy.Time.now()
-        publisher.publish(pose)
-        rate.sleep()
+    publish_at(100, publisher, pose)
 
 
 def publish_mesh(name):
@@ -50,11 +55,7 @@ def publish_mesh(name):
     update = MeshVertices(id=name, revision=1)
     update.header.frame_id = 'world'
     update.positions = [value for x, y in CORNERS for value in (x, y, IDS[name])]
-    rate = rospy.Rate(30)
-    while not rospy.is_shutdown():
-        update.header.stamp = rospy.Time.now()
-        vertices.publish(update)
-        rate.sleep()
+    publish_at(30, vertices, update)
 
 
 def publish_commands():
@@ -62,11 +63,7 @@ def publish_commands():
     command = TwistStamped()
     command.header.frame_id = 'world'
     command.twist.linear.x = SPEED
-    rate = rospy.Rate(100)
-    while not rospy.is_shutdown():
-        command.header.stamp = rospy.Time.now()
-        publisher.publish(command)
-        rate.sleep()
+    publish_at(100, publisher, command)
 
 
 def listen():

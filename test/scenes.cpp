@@ -425,6 +425,26 @@ TriangleMesh wavyHull(int rings, int sectors, double phase) {
   return TriangleMesh(vertices, std::move(triangles));
 }
 
+TriangleMesh gridSurface(std::uint32_t cells, double side, const std::function<double(double x, double y)>& height) {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<Triangle> triangles;
+  for (std::uint32_t row = 0; row <= cells; ++row) {
+    for (std::uint32_t column = 0; column <= cells; ++column) {
+      const double x = side * column / cells - side / 2.0;
+      const double y = side * row / cells - side / 2.0;
+      vertices.emplace_back(x, y, height(x, y));
+    }
+  }
+  for (std::uint32_t row = 0; row < cells; ++row) {
+    for (std::uint32_t column = 0; column < cells; ++column) {
+      const std::uint32_t at = row * (cells + 1) + column;
+      triangles.push_back({at, at + 1, at + cells + 2});
+      triangles.push_back({at, at + cells + 2, at + cells + 1});
+    }
+  }
+  return TriangleMesh(vertices, std::move(triangles));
+}
+
 std::vector<float> streamedPositions(const TriangleMesh& mesh) {
   std::vector<float> positions;
   for (size_t i = 0; i < mesh.vertexCount(); ++i) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <functional>
 #include <random>
 #include <string>
 #include <vector>
@@ -81,6 +82,11 @@ std::string describe(const Scene& scene, std::uint32_t triangle);
 /// @param rings, sectors  2 * (rings - 1) * sectors triangles
 /// @param phase           of the waves [rad]: deforms it
 TriangleMesh wavyHull(int rings, int sectors, double phase);
+
+/// Returns the surface of a square around the origin, of 2 * cells * cells triangles whose normals point up.
+/// @param side    [m]
+/// @param height  returns z [m] above x and y [m]; called once for each vertex, row by row
+TriangleMesh gridSurface(std::uint32_t cells, double side, const std::function<double(double x, double y)>& height);
 
 /// Returns the vertices in float32 as a MeshVertices message has them: x0 y0 z0 x1 ... [m]
 std::vector<float> streamedPositions(const TriangleMesh& mesh);

@@ -1,9 +1,7 @@
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
 #include <tf2_eigen/tf2_eigen.h>
-#include <tf2_ros/buffer.h>
 #include <tf2_ros/static_transform_broadcaster.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <optional>
 #include <string>
@@ -35,20 +33,17 @@ constexpr double kFinalDelay = 1.0;  // [s] for the last states to be sent
 class JointPlayer {
  public:
   explicit JointPlayer(sweep_guard_ros::ParameterReader& parameters)
-      : frame_(parameters.name("frame", "world")),
-        bag_(parameters.name("bag", "")),
+      : bag_(parameters.name("bag", "")),
         topic_(parameters.text("topic", "")),
         place_T_(readPlace(parameters)),
         loop_(parameters.flag("loop", true)),
-        min_subscribers_(parameters.integer("min_subscribers", 1, 0, 100)),
         guard_(sweep_guard_ros::loadParameters(ros::NodeHandle(parameters.name("guard", "sweep_guard")))),
-        listener_(buffer_),
-        start_(frame_, buffer_) {
+        start_(parameters) {
     if (guard_.tool_source != sweep_guard_ros::ToolSource::kJointStates) {
       throw InvalidInput("no joints move the tool of the guard; set its tool_source to joint_states");
     }
-    if (guard_.tool_frame == frame_) {
-      throw InvalidInput("tool_frame is '" + frame_ +
+    if (guard_.tool_frame == start_.frame()) {
+      throw InvalidInput("tool_frame is '" + start_.frame() +
                          "', and this frame cannot be moved to the workpiece; leave --tool-frame out");
     }
     const sweep_guard_core::KinematicTree& tree = guard_.robot->robot.tree;
@@ -64,7 +59,7 @@ class JointPlayer {
     if (!start_.awaitWorkpiece()) return;
     const Meeting meeting = halfway(*guard_.robot, motion_);
     placeBase(place_T_ ? start_.center_W() - *place_T_ : placeToMeet(meeting, start_.mesh_W(), kDepth));
-    if (!start_.awaitGuard() || !MotionStart::awaitSubscribers(publisher_, min_subscribers_)) return;
+    if (!start_.awaitGuard() || !start_.awaitSubscribers(publisher_)) return;
     start_.stopListening();
     ROS_INFO("the joints start to move");
     if (perform(Playback<StampedPositions>(std::move(motion_), loop_))) {
@@ -83,7 +78,7 @@ class JointPlayer {
   void placeBase(const Eigen::Vector3d& p_W) {
     geometry_msgs::TransformStamped transform = tf2::eigenToTransform(Eigen::Isometry3d(Eigen::Translation3d(p_W)));
     transform.header.stamp = ros::Time::now();
-    transform.header.frame_id = frame_;
+    transform.header.frame_id = start_.frame();
     transform.child_frame_id = guard_.tool_frame;
     broadcaster_.sendTransform(transform);
     const Eigen::Vector3d center_T = start_.center_W() - p_W;
@@ -109,19 +104,15 @@ class JointPlayer {
     publisher_.publish(message);
   }
 
-  std::string frame_;
   std::string bag_;
   std::string topic_;
   std::optional<Eigen::Vector3d> place_T_;  // [m] of the center of the workpiece; empty: where the tool meets it
   bool loop_;
-  int min_subscribers_;
   sweep_guard_ros::Parameters guard_;
   std::vector<std::string> joints_;  // by variable
   std::vector<StampedPositions> motion_;
   ros::NodeHandle node_;
   ros::Publisher publisher_;
-  tf2_ros::Buffer buffer_;
-  tf2_ros::TransformListener listener_;
   tf2_ros::StaticTransformBroadcaster broadcaster_;
   MotionStart start_;
 };

@@ -55,7 +55,8 @@ bool awaitDue(const PoseScheduler& scheduler, sweep_guard_core::Time stamp) {
   return sleepUntil(sweep_guard_ros::toMsg(scheduler.due(stamp)));
 }
 
-MotionStart::MotionStart(const std::string& frame, tf2_ros::Buffer& buffer) : frame_(frame), buffer_(buffer) {
+MotionStart::MotionStart(sweep_guard_ros::ParameterReader& parameters)
+    : frame_(parameters.name("frame", "world")), min_subscribers_(parameters.integer("min_subscribers", 1, 0, 100)) {
   const auto on_mesh = [this](const sweep_guard::DeformableMesh::ConstPtr& mesh) {
     if (!mesh->mesh.triangles.empty()) mesh_ = mesh;
   };
@@ -74,9 +75,9 @@ bool MotionStart::awaitGuard() {
   return waitUntil([this] { return guard_ready_; }, "the guard to know the workpiece");
 }
 
-bool MotionStart::awaitSubscribers(const ros::Publisher& publisher, int count) {
-  return waitUntil([&] { return static_cast<int>(publisher.getNumSubscribers()) >= count; },
-                   std::to_string(count) + " subscribers of " + publisher.getTopic());
+bool MotionStart::awaitSubscribers(const ros::Publisher& publisher) const {
+  return waitUntil([&] { return static_cast<int>(publisher.getNumSubscribers()) >= min_subscribers_; },
+                   std::to_string(min_subscribers_) + " subscribers of " + publisher.getTopic());
 }
 
 void MotionStart::stopListening() {

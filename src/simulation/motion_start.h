@@ -4,6 +4,7 @@
 #include <sweep_guard/DeformableMesh.h>
 #include <sweep_guard/Warning.h>
 #include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
 
 #include <Eigen/Core>
 #include <functional>
@@ -12,6 +13,7 @@
 
 #include "simulation/pose_scheduler.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
+#include "sweep_guard/ros/parameters/parameter_reader.h"
 
 namespace sweep_guard_simulation {
 
@@ -31,27 +33,31 @@ bool awaitDue(const PoseScheduler& scheduler, sweep_guard_core::Time stamp);
 /// subscribers. One thread.
 class MotionStart {
  public:
-  /// @param frame   tf frame W of the motion
-  /// @param buffer  must outlive it
-  MotionStart(const std::string& frame, tf2_ros::Buffer& buffer);
+  /// Reads `frame`, the tf frame W of the motion, and `min_subscribers`, for how many to wait.
+  /// @throws sweep_guard_core::InvalidInput as ParameterReader
+  explicit MotionStart(sweep_guard_ros::ParameterReader& parameters);
 
   // Each returns false if the node ends before.
   bool awaitWorkpiece();
   bool awaitGuard();
-  /// @param count  of subscribers
-  static bool awaitSubscribers(const ros::Publisher& publisher, int count);
+  bool awaitSubscribers(const ros::Publisher& publisher) const;
 
+  const std::string& frame() const { return frame_; }
   const sweep_guard_core::TriangleMesh& mesh_W() const { return *mesh_W_; }  ///< after awaitWorkpiece()
   const Eigen::Vector3d& center_W() const { return center_W_; }              ///< [m] origin of its frame, as mesh_W()
   const std::string& meshId() const { return mesh_->id; }                    ///< after awaitWorkpiece()
 
-  void stopListening();
+  void stopListening();  ///< to workpiece and warnings
+
+  const tf2_ros::Buffer& transforms() const { return buffer_; }  ///< as they come
 
  private:
   bool locate();
 
   std::string frame_;
-  tf2_ros::Buffer& buffer_;
+  int min_subscribers_;
+  tf2_ros::Buffer buffer_;
+  tf2_ros::TransformListener listener_{buffer_};
   sweep_guard::DeformableMesh::ConstPtr mesh_;
   std::optional<sweep_guard_core::TriangleMesh> mesh_W_;
   Eigen::Vector3d center_W_ = Eigen::Vector3d::Zero();

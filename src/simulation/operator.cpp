@@ -1,8 +1,6 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <ros/ros.h>
 #include <tf2_eigen/tf2_eigen.h>
-#include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <array>
 #include <memory>
@@ -50,8 +48,7 @@ constexpr double kIntendedDepth = 0.02;   // [m]; more than the depth of a hole,
 class OperatorNode {
  public:
   explicit OperatorNode(sweep_guard_ros::ParameterReader& parameters)
-      : frame_(parameters.name("frame", "world")),
-        motion_file_(parameters.text("motion_file", "")),
+      : motion_file_(parameters.text("motion_file", "")),
         motion_topic_(parameters.text("motion_topic", "")),
         input_(parameters.choice("input", motion_file_.empty() ? "scripted" : "recording",
                                  {"scripted", "recording", "marker", "joy"})),
@@ -62,11 +59,9 @@ class OperatorNode {
         loop_(parameters.flag("loop", true)),
         wait_for_guard_(parameters.flag("wait_for_guard", true)),
         first_hole_(parameters.integer("first_hole", 0, 0, kHolesOnCircle)),
-        min_subscribers_(parameters.integer("min_subscribers", 1, 0, 100)),
         intend_(parameters.flag("intend", false)),
         guard_(parameters.text("guard", "")),
-        listener_(buffer_),
-        start_(frame_, buffer_) {
+        start_(parameters) {
     if (input_ == "recording") readMotion();
     publisher_ = node_.advertise<geometry_msgs::PoseStamped>("tool_pose", kQueue);
   }
@@ -77,7 +72,7 @@ class OperatorNode {
     if (wait_for_guard_ && !start_.awaitGuard()) return;
     if (!guard_.empty()) setTool(*sweep_guard_ros::loadParameters(ros::NodeHandle(guard_)).tool);
     const PoseStream motion = makePoses();
-    if (!MotionStart::awaitSubscribers(publisher_, min_subscribers_)) return;
+    if (!start_.awaitSubscribers(publisher_)) return;
     if (intend_) intendHoles();
     start_.stopListening();
     ROS_INFO("the operator starts to move");
@@ -125,7 +120,8 @@ class OperatorNode {
       joy_guide_.emplace(node_, joystick_, acknowledge_button_);
       return guidedBy(tip, [this](GuidedTip& moving, double dt) { joy_guide_->move(moving, dt); });
     }
-    marker_guide_ = std::make_unique<MarkerGuide>(ros::names::resolve("~marker"), frame_, tip.pose(), buffer_);
+    marker_guide_ =
+        std::make_unique<MarkerGuide>(ros::names::resolve("~marker"), start_.frame(), tip.pose(), start_.transforms());
     return guidedBy(tip, [this](GuidedTip& moving, double dt) { marker_guide_->move(moving, dt); });
   }
 
@@ -156,7 +152,7 @@ class OperatorNode {
     for (const Eigen::Vector3d& hole_W : holes_W()) {
       sweep_guard::Intend intend;
       intend.mesh_id = start_.meshId();
-      intend.frame_id = frame_;
+      intend.frame_id = start_.frame();
       intend.center = tf2::toMsg(hole_W);
       intend.radius = kIntendedRadius;
       intend.depth = kIntendedDepth;
@@ -197,12 +193,11 @@ class OperatorNode {
   void publish(const Eigen::Isometry3d& X_WT, const ros::Time& stamp) {
     geometry_msgs::PoseStamped message;
     message.header.stamp = stamp;
-    message.header.frame_id = frame_;
+    message.header.frame_id = start_.frame();
     message.pose = tf2::toMsg(X_WT);
     publisher_.publish(message);
   }
 
-  std::string frame_;
   std::string motion_file_;
   std::string motion_topic_;
   std::string input_;
@@ -213,7 +208,6 @@ class OperatorNode {
   bool loop_;
   bool wait_for_guard_;
   int first_hole_;  // of the script
-  int min_subscribers_;
   bool intend_;
   std::string guard_;  // the operator moves its tool; empty: a tool with the tip at the origin
   std::vector<StampedPose> recording_;
@@ -221,8 +215,6 @@ class OperatorNode {
   double radial_extent_ = 0.0;                        // [m]
   ros::NodeHandle node_;
   ros::Publisher publisher_;
-  tf2_ros::Buffer buffer_;
-  tf2_ros::TransformListener listener_;
   MotionStart start_;
   bool stalled_ = false;  // since the last motion of the tip
   std::optional<JoyGuide> joy_guide_;

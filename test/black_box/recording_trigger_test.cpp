@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <initializer_list>
+#include <utility>
+
 namespace sweep_guard_core {
 namespace {
 
@@ -12,13 +15,15 @@ Instant at(Duration time) { return at(time, time); }
 
 RecordingTrigger trigger(bool on_contact, bool on_reflex) { return RecordingTrigger({5s, on_contact, on_reflex}); }
 
+void warn(RecordingTrigger& trigger, std::initializer_list<std::pair<WarningLevel, Duration>> levels) {
+  for (const auto& [level, time] : levels) trigger.warned(level, at(time));
+}
+
 TEST(RecordingTriggerTest, AContactIsDueSomeTimeAfterItsBeginAndOnce) {
   RecordingTrigger contact = trigger(true, false);
-  contact.warned(WarningLevel::kClear, at(0s));
-  contact.warned(WarningLevel::kReflex, at(1s));
+  warn(contact, {{WarningLevel::kClear, 0s}, {WarningLevel::kReflex, 1s}});
   EXPECT_FALSE(contact.waiting());
-  contact.warned(WarningLevel::kContact, at(2s));
-  contact.warned(WarningLevel::kContact, at(3s));
+  warn(contact, {{WarningLevel::kContact, 2s}, {WarningLevel::kContact, 3s}});
   EXPECT_FALSE(contact.due(at(6999ms)));
   EXPECT_TRUE(contact.due(at(7s)));
   EXPECT_EQ(contact.take()->cause, RecordingCause::kContact);
@@ -48,8 +53,7 @@ TEST(RecordingTriggerTest, TheNextContactIsAnotherEvent) {
   RecordingTrigger contact = trigger(true, false);
   contact.warned(WarningLevel::kContact, at(0s));
   contact.take();
-  contact.warned(WarningLevel::kClear, at(6s));
-  contact.warned(WarningLevel::kContact, at(7s));
+  warn(contact, {{WarningLevel::kClear, 6s}, {WarningLevel::kContact, 7s}});
   EXPECT_EQ(contact.waiting()->begin.steady, at(7s).steady);
 }
 
@@ -61,21 +65,17 @@ TEST(RecordingTriggerTest, AGuardThatBeginsInContactIsAnEvent) {
 
 TEST(RecordingTriggerTest, ReflexIsAnEventByChoiceAndNotAfterAContact) {
   RecordingTrigger reflex = trigger(false, true);
-  reflex.warned(WarningLevel::kContact, at(0s));
-  reflex.warned(WarningLevel::kReflex, at(1s));
+  warn(reflex, {{WarningLevel::kContact, 0s}, {WarningLevel::kReflex, 1s}});
   EXPECT_FALSE(reflex.waiting());
-  reflex.warned(WarningLevel::kClear, at(2s));
-  reflex.warned(WarningLevel::kReflex, at(3s));
+  warn(reflex, {{WarningLevel::kClear, 2s}, {WarningLevel::kReflex, 3s}});
   EXPECT_EQ(reflex.waiting()->cause, RecordingCause::kReflex);
 }
 
 TEST(RecordingTriggerTest, AMoreImportantEventGivesTheRecordingItsTimeAndALessImportantOneJoins) {
   RecordingTrigger both = trigger(true, true);
-  both.warned(WarningLevel::kReflex, at(0s));
-  both.warned(WarningLevel::kContact, at(4s));
+  warn(both, {{WarningLevel::kReflex, 0s}, {WarningLevel::kContact, 4s}});
   both.requested(at(6s));
-  both.warned(WarningLevel::kClear, at(6s));
-  both.warned(WarningLevel::kContact, at(7s));
+  warn(both, {{WarningLevel::kClear, 6s}, {WarningLevel::kContact, 7s}});
   EXPECT_FALSE(both.due(at(8s)));
   EXPECT_TRUE(both.due(at(9s)));
   EXPECT_EQ(both.take()->cause, RecordingCause::kContact);

@@ -25,6 +25,12 @@ inline float& at(std::vector<float>& depths, std::uint32_t column, std::uint32_t
   return depths[row * kWidth + column];
 }
 
+// With another depth in the pixel at the center of the picture.
+inline std::vector<float> withSpot(std::vector<float> depths, float depth) {
+  at(depths, 26, 18) = depth;
+  return depths;
+}
+
 inline Eigen::Vector3d onRay(std::uint32_t column, std::uint32_t row, double depth) {
   return {depth * (column - kCamera.cx) / kCamera.fx, depth * (row - kCamera.cy) / kCamera.fy, depth};
 }
@@ -75,11 +81,7 @@ class DepthMotionTest : public DepthSurfaceTest {
 
   DepthSurface surface_{grid_, kCamera, kExact};
   // A robot before a wall, in one pixel.
-  void takeRobotBefore(float depth) {
-    std::vector<float> robot = wall(depth);
-    at(robot, 26, 18) = 0.5F;
-    take(robot, 0.0, {boxAt(0.5)});
-  }
+  void takeRobotBefore(float depth) { take(withSpot(wall(depth), 0.5F), 0.0, {boxAt(0.5)}); }
 
   Eigen::Isometry3d X_FC_ = Eigen::Isometry3d::Identity();
 };

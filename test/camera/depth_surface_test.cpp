@@ -216,8 +216,7 @@ TEST_F(DepthMotionTest, APointIsSeenOrRememberedWhereItsVertexIsAndTheRobotWhere
   const DepthOptions options{0.1, 4.0, {0.01, 0.0}};
   DepthSurface surface(grid_, kCamera, options);
   surface.take(wall(1.0F), X_FC_);
-  std::vector<float> robot = wall(1.0F);
-  at(robot, 26, 18) = 0.5F;
+  std::vector<float> robot = withSpot(wall(1.0F), 0.5F);
   at(robot, 25, 18) = kNone;
   at(robot, 40, 30) = kNone;
   surface.take(robot, X_FC_, 0.0, {boxAt(0.5)});
@@ -235,8 +234,7 @@ TEST_F(DepthMotionTest, APointIsSeenOrRememberedWhereItsVertexIsAndTheRobotWhere
 }
 
 TEST_F(DepthMotionTest, WhereTheRobotHasHiddenAllSinceTheBeginningNoPointIsRemembered) {
-  std::vector<float> robot = wall(7.0F);  // beyond the range
-  at(robot, 26, 18) = 0.5F;
+  const std::vector<float> robot = withSpot(wall(7.0F), 0.5F);  // beyond the range
   take(robot, 0.0, {boxAt(0.5)});
   const auto points = surface_.points(robot, robot.size());
   ASSERT_EQ(points.size(), 1U);
@@ -256,8 +254,7 @@ TEST_F(DepthMotionTest, PointsOfALargeImageAreFewerAllOverThePicture) {
 // As of a black one, or in its shadow.
 TEST_F(DepthMotionTest, WhatARobotWithoutDepthHidesStaysWhereItWasSeen) {
   take(wall(1.0F), 0.0);
-  std::vector<float> robot = wall(1.0F);
-  at(robot, 26, 18) = kNone;
+  std::vector<float> robot = withSpot(wall(1.0F), kNone);
   at(robot, 50, 5) = kNone;
   take(robot, 0.0, {boxAt(0.5)});
   EXPECT_EQ(surface_.self(), 1U);
@@ -299,10 +296,8 @@ TEST_F(DepthMotionTest, TheMarginTakesTheRobotNotOutOfItsVolume) {
 
 // A camera's fault lasts for one image, and what came for more.
 TEST_F(DepthMotionTest, WhatOnlyOneImageShowsIsNotRemembered) {
-  std::vector<float> speck = wall(1.0F);
-  at(speck, 26, 18) = 0.9F;
-  std::vector<float> robot = wall(1.0F);
-  at(robot, 26, 18) = 0.5F;
+  const std::vector<float> speck = withSpot(wall(1.0F), 0.9F);
+  const std::vector<float> robot = withSpot(wall(1.0F), 0.5F);
   take(wall(1.0F), 0.0);
   take(speck, 0.0);
   take(robot, 0.0, {boxAt(0.5)});
@@ -314,8 +309,7 @@ TEST_F(DepthMotionTest, WhatOnlyOneImageShowsIsNotRemembered) {
 }
 
 TEST_F(DepthMotionTest, WhatStoodBeforeTheRobotHasGoneWhereTheRobotIsSeen) {
-  std::vector<float> robot = wall(1.0F);
-  at(robot, 26, 18) = 0.7F;
+  const std::vector<float> robot = withSpot(wall(1.0F), 0.7F);
   take(wall(1.0F), 0.0);
   take(wall(0.5F), 0.0);
   take(wall(0.5F), 0.0);
@@ -324,8 +318,7 @@ TEST_F(DepthMotionTest, WhatStoodBeforeTheRobotHasGoneWhereTheRobotIsSeen) {
 }
 
 TEST_F(DepthMotionTest, WhereNothingIsKnownBehindTheRobotWhatStoodBeforeItLeavesNoSurface) {
-  std::vector<float> robot = wall(1.0F);
-  at(robot, 26, 18) = 0.7F;
+  const std::vector<float> robot = withSpot(wall(1.0F), 0.7F);
   take(wall(0.5F), 0.0);
   take(robot, 0.0, {boxAt(0.7)});
   EXPECT_EQ(surface_.seen(), size_t{kWidth} * kHeight - 1);

@@ -21,7 +21,7 @@ constexpr std::array<Reason, 5> kFaults = {kPoseInvalid, kOutOfOrder, kFutureSta
 
 class Session {
  public:
-  explicit Session(Input& input)
+  explicit Session(Input input)
       : input_(input),
         monitor_(
             kLimits, [] {}, [this] { return waitingSince(); }, [this] { return hung_ ? "sweeps" : nullptr; }) {}
@@ -433,7 +433,7 @@ class Session {
                               "good inputs lead to CLEAR");
   }
 
-  Input& input_;
+  Input input_;
   MonitorModel model_;
   MonitorModel::Clock now_ = {5000, 5000};
   bool hung_ = false;
@@ -450,7 +450,6 @@ class Session {
 }  // namespace sweep_guard_fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, size_t size) {
-  sweep_guard_fuzz::Input input(bytes, size);
-  sweep_guard_fuzz::Session(input).run();
+  sweep_guard_fuzz::Session(sweep_guard_fuzz::Input(bytes, size)).run();
   return 0;
 }

@@ -73,7 +73,7 @@ struct Placed {
 
 class Scene {
  public:
-  explicit Scene(Input& input) : input_(input) {
+  explicit Scene(Input input) : input_(input) {
     for (int count = 1 + input_.below(2); count > 0; --count) tool_.push_back(bodyFrom(input_));
     reach_ = static_cast<Real>(sweep_guard_core::soundness::extentOf(tool_));
     for (int count = 3 * (1 + input_.below(4)); count > 0; --count) vertices_.push_back(placeFrom(input_, 0.2));
@@ -262,7 +262,7 @@ class Scene {
     }
   }
 
-  Input& input_;
+  Input input_;
   Bodies tool_;
   Real reach_ = 0;     // of the tool
   Vertices vertices_;  // newest places
@@ -282,7 +282,6 @@ class Scene {
 }  // namespace sweep_guard_fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, size_t size) {
-  sweep_guard_fuzz::Input input(bytes, size);
-  sweep_guard_fuzz::Scene(input).run();
+  sweep_guard_fuzz::Scene(sweep_guard_fuzz::Input(bytes, size)).run();
   return 0;
 }

@@ -7,6 +7,7 @@
 #include "guard/guard_results.h"
 #include "guard/times.h"
 #include "guard/triangle_set.h"
+#include "guard/two_links.h"
 #include "kinematics/random_robot.h"
 #include "scenes.h"
 #include "sweep_guard/kinematics/robot_path.h"
@@ -239,16 +240,9 @@ TEST_F(BodiesTest, AnyOfThemIsNearAWorkpiece) {
 
 // Balls that slide along z, half a metre apart.
 std::shared_ptr<const Robot> twoBalls(const std::string& first, const std::string& second) {
-  std::vector<TreeLink> links(2);
-  std::vector<std::pair<size_t, std::vector<ConvexPiece>>> pieces;
-  for (size_t i = 0; i < 2; ++i) {
-    links[i].name = i == 0 ? first : second;
-    links[i].type = JointType::kPrismatic;
-    links[i].variable = i;
-    links[i].X_PJ.translation().x() = 0.5 * static_cast<double>(i);
-    pieces.push_back({i, {{links[i].name, ConvexShape::sphere(0.01)}}});
-  }
-  return std::make_shared<const Robot>(robotOf({{{"one"}, {"other"}}, links}, pieces));
+  TwoLinks balls(first, second, JointType::kPrismatic, ConvexShape::sphere(0.01));
+  balls.links[1].X_PJ = along(0.5);
+  return balls.robot();
 }
 
 // Over a triangle.
@@ -339,26 +333,12 @@ TEST_F(TwoBallsTest, ContactOfOneAsIntendedDoesNotHideThatOfTheOther) {
   EXPECT_TRUE(both.objects[0].result.intended.empty());
 }
 
-// Two links of 0.4 m; the elbow of the upper one is thick, the lower one is folded back.
-Robot foldedArm() {
-  std::vector<TreeLink> links(2);
-  std::vector<std::pair<size_t, std::vector<ConvexPiece>>> pieces;
-  for (size_t i = 0; i < 2; ++i) {
-    links[i].name = i == 0 ? "upper" : "fore";
-    links[i].type = JointType::kRevolute;
-    links[i].variable = i;
-    const Eigen::Isometry3d middle(Eigen::Translation3d(0.2, 0.0, 0.0));
-    pieces.push_back({i, {{links[i].name, ConvexShape::box({0.2, 0.02, 0.02}).placed(middle)}}});
-  }
-  links[1].parent = 0;
-  links[1].X_PJ.translation().x() = 0.4;
-  pieces[0].second.push_back({"upper", ConvexShape::sphere(0.05).placed(Eigen::Isometry3d(links[1].X_PJ))});
-  return robotOf({{{"shoulder"}, {"elbow"}}, links}, pieces);
-}
-
-// The shoulder turns at 0.5 rad/s towards a sheet 0.3 m to its side: the elbow comes to it after 1.35 s, the tip never does.
+// The elbow is thick, and the lower link is folded back. The shoulder turns at 0.5 rad/s towards a sheet 0.3 m to its side: the
+// elbow comes to it after 1.35 s, the tip never does.
 TEST(ArmBesideASheetTest, AContactOfTheElbowIsPredictedAhead) {
-  const auto robot = std::make_shared<const Robot>(foldedArm());
+  TwoLinks arm = planarArm();
+  arm.pieces[0].second.push_back({"upper", ConvexShape::sphere(0.05).placed(along(0.4))});
+  const auto robot = arm.robot();
   GuardOptions options;
   options.clock = [] { return SteadyTime(); };
   for (const char* predictor : {"direct", "polynomial", "constant_velocity"}) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "guard/clearance_by_clipping.h"
 #include "scenes.h"
@@ -182,45 +183,66 @@ TEST(ContactProbabilityTest, GrowsWithDoubtAndFallsWithDistance) {
     EXPECT_LE(wall(distance + 0.01), wall(distance) + 1e-3);
 }
 
+struct UncertainSweep {
+  UncertainSweep(Random& random, int index)
+      : i(index),
+        tool(randomTool(random, 0.1)),
+        motion(randomMotion(random, tool, random.uniform(0.05, 0.3) * random.direction(), 0.17)),
+        covariance(covarianceOf(Eigen::Matrix<double, 6, 1>::Constant(random.logUniform(0.01, 0.2)))) {}
+
+  PerHalfSpace deviationsOf(const SweptVolume& volume_M) const {
+    return planeDeviations(tool, motion.X_MT_end, covariance, volume_M);
+  }
+
+  int i;  // among those of a seed
+  ConvexShape tool;
+  Motion motion;
+  Matrix6d covariance;
+  SweptVolume swept_M = sweptVolume(tool, motion, VolumeKind::kObbPlanes);
+  PerHalfSpace deviations = deviationsOf(swept_M);
+};
+
+std::vector<UncertainSweep> uncertainSweeps(int count, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<UncertainSweep> sweeps;
+  for (int i = 0; i < count; ++i) sweeps.emplace_back(random, i);
+  return sweeps;
+}
+
 // What the meter says is what clipping says: a little less and nothing is met, a little more and something is. Where
 // the volume meets the mesh as it is, the tool must stay back from the triangle that is deepest in it.
 TEST(ContactProbabilityTest, TheDeviationsAreThoseAtWhichTheVolumeMeetsTheMesh) {
-  Random random(3);
   const TriangleMesh hull = wavyHull(12, 16, 0.5);
   ClearanceMeter meter;
   int outside = 0;
   int inside = 0;
-  for (int i = 0; i < 300; ++i) {
-    const ConvexShape tool = randomTool(random, 0.1);
-    Motion motion = randomMotion(random, tool, random.uniform(0.05, 0.3) * random.direction(), 0.17);
-    const SweptVolume swept_M = sweptVolume(tool, motion, VolumeKind::kObbPlanes);
-    const Matrix6d covariance = covarianceOf(Eigen::Matrix<double, 6, 1>::Constant(random.logUniform(0.01, 0.2)));
-    const auto deviations = planeDeviations(tool, motion.X_MT_end, covariance, swept_M);
+  for (const UncertainSweep& sweep : uncertainSweeps(/*count=*/300, /*seed=*/3)) {
     const auto meetsAt = [&](double z) {
-      return std::any_of(hull.triangles().begin(), hull.triangles().end(),
-                         [&](const Triangle& triangle) { return meets(hull, triangle, swept_M, z, deviations); });
+      return std::any_of(hull.triangles().begin(), hull.triangles().end(), [&](const Triangle& triangle) {
+        return meets(hull, triangle, sweep.swept_M, z, sweep.deviations);
+      });
     };
-    const bool is_near = meter.isNear(hull, swept_M, deviations);
-    const auto clearance = meter.measure(hull, swept_M, deviations);
-    EXPECT_EQ(is_near, clearance.has_value()) << i;
+    const bool is_near = meter.isNear(hull, sweep.swept_M, sweep.deviations);
+    const auto clearance = meter.measure(hull, sweep.swept_M, sweep.deviations);
+    EXPECT_EQ(is_near, clearance.has_value()) << sweep.i;
     if (!clearance) {
       EXPECT_FALSE(meetsAt(kMaxDeviations - 1e-6));
       continue;
     }
-    EXPECT_TRUE(meetsAt(std::max(0.0, clearance->deviations) + 1e-5)) << i;
-    EXPECT_EQ(clearance->separated, meter.notSeparated(hull, swept_M).empty());
+    EXPECT_TRUE(meetsAt(std::max(0.0, clearance->deviations) + 1e-5)) << sweep.i;
+    EXPECT_EQ(clearance->separated, meter.notSeparated(hull, sweep.swept_M).empty());
     if (clearance->deviations > 2e-3) {
       ++outside;
-      EXPECT_FALSE(meetsAt(clearance->deviations - 2e-3)) << i;
+      EXPECT_FALSE(meetsAt(clearance->deviations - 2e-3)) << sweep.i;
       continue;
     }
     double deepest = 0.0;
     for (const Triangle& triangle : hull.triangles()) {
-      if (!meets(hull, triangle, swept_M, 0.0, deviations)) continue;
-      deepest = std::min(deepest, farthestBack(hull, triangle, swept_M, deviations));
+      if (!meets(hull, triangle, sweep.swept_M, 0.0, sweep.deviations)) continue;
+      deepest = std::min(deepest, farthestBack(hull, triangle, sweep.swept_M, sweep.deviations));
     }
     inside += deepest < 0.0;
-    EXPECT_NEAR(clearance->deviations, std::max(deepest, -kMaxDeviations), 2e-3) << i;
+    EXPECT_NEAR(clearance->deviations, std::max(deepest, -kMaxDeviations), 2e-3) << sweep.i;
   }
   EXPECT_GT(outside, 50);
   EXPECT_GT(inside, 20);
@@ -229,33 +251,27 @@ TEST(ContactProbabilityTest, TheDeviationsAreThoseAtWhichTheVolumeMeetsTheMesh) 
 // Up to fewer deviations, the meter says the same of what is nearer, and of what no plane separates; and it says nothing where
 // the planes of the box alone, moved out as far, separate every triangle.
 TEST(ContactProbabilityTest, IsTheSameUpToFewerDeviationsUnlessTheBoxAloneSeparatesAll) {
-  Random random(4);
   const TriangleMesh hull = wavyHull(12, 16, 0.5);
   ClearanceMeter meter;
   int same = 0;
   int separated_by_box = 0;
-  for (int i = 0; i < 500; ++i) {
-    const ConvexShape tool = randomTool(random, 0.1);
-    const Motion motion = randomMotion(random, tool, random.uniform(0.05, 0.3) * random.direction(), 0.17);
-    const Matrix6d covariance = covarianceOf(Eigen::Matrix<double, 6, 1>::Constant(random.logUniform(0.01, 0.2)));
-    const SweptVolume swept_M = sweptVolume(tool, motion, VolumeKind::kObbPlanes);
-    const auto deviations = planeDeviations(tool, motion.X_MT_end, covariance, swept_M);
-    const SweptVolume box_M = sweptVolume(tool, motion, VolumeKind::kObb);
-    const auto of_box = planeDeviations(tool, motion.X_MT_end, covariance, box_M);
-    const auto all = meter.measure(hull, swept_M, deviations);
+  for (const UncertainSweep& sweep : uncertainSweeps(/*count=*/500, /*seed=*/4)) {
+    const SweptVolume box_M = sweptVolume(sweep.tool, sweep.motion, VolumeKind::kObb);
+    const auto of_box = sweep.deviationsOf(box_M);
+    const auto all = meter.measure(hull, sweep.swept_M, sweep.deviations);
     for (const double at_most : {0.0, 0.3, 1.0, 2.5}) {
-      const auto clearance = meter.measure(hull, swept_M, deviations, {}, at_most);
+      const auto clearance = meter.measure(hull, sweep.swept_M, sweep.deviations, {}, at_most);
       if (meter.isSeparated(hull, box_M, of_box, at_most)) {
         ++separated_by_box;
-        EXPECT_FALSE(clearance) << i;
+        EXPECT_FALSE(clearance) << sweep.i;
       }
       if (clearance) {
         ++same;
-        EXPECT_NEAR(clearance->deviations, all->deviations, 2e-3) << i;
-        EXPECT_EQ(clearance->separated, all->separated) << i;
+        EXPECT_NEAR(clearance->deviations, all->deviations, 2e-3) << sweep.i;
+        EXPECT_EQ(clearance->separated, all->separated) << sweep.i;
       } else if (all) {
-        EXPECT_TRUE(all->separated) << i;
-        EXPECT_GT(all->deviations, at_most - 2e-3) << i;
+        EXPECT_TRUE(all->separated) << sweep.i;
+        EXPECT_GT(all->deviations, at_most - 2e-3) << sweep.i;
       }
     }
   }

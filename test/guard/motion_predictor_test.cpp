@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "guard/times.h"
+#include "guard/two_links.h"
 #include "kinematics/random_robot.h"
 #include "prediction/motion_space.h"
 #include "scenes.h"
@@ -21,23 +22,6 @@ std::shared_ptr<const Robot> robotWith(KinematicTree tree) {
   for (size_t link = 0; link < tree.links().size(); ++link)
     pieces.push_back({link, {{"link", ConvexShape::sphere(0.02)}}});
   return std::make_shared<const Robot>(robotOf(std::move(tree), pieces));
-}
-
-// Two links of 0.4 m in the plane of x and y, at x from their joints on.
-std::shared_ptr<const Robot> planarArm(const JointVariable& elbow = {"elbow"}) {
-  std::vector<TreeLink> links(2);
-  std::vector<std::pair<size_t, std::vector<ConvexPiece>>> pieces;
-  for (size_t i = 0; i < 2; ++i) {
-    links[i].name = i == 0 ? "upper" : "fore";
-    links[i].type = JointType::kRevolute;
-    links[i].variable = i;
-    const Eigen::Isometry3d X =
-        Eigen::Translation3d(0.2, 0.0, 0.0) * Eigen::AngleAxisd(M_PI_2, Eigen::Vector3d::UnitY());
-    pieces.push_back({i, {{links[i].name, ConvexShape::box({0.02, 0.02, 0.2}).placed(X)}}});
-  }
-  links[1].parent = 0;
-  links[1].X_PJ.translation().x() = 0.4;
-  return std::make_shared<const Robot>(robotOf({{{"shoulder"}, elbow}, links}, pieces));
 }
 
 PoseWithFrames poseAt(const Robot& robot, double seconds, const RobotState& state) {
@@ -120,7 +104,7 @@ TEST(MotionPredictorTest, BodiesOfJointsAtConstantSpeedArePredictedExactly) {
 
 // A link of which only the pose were predicted would go on through its limit.
 TEST(MotionPredictorTest, BodiesStopWhereTheirJointsDo) {
-  const auto robot = planarArm({"elbow", -2.0, 0.5});
+  const auto robot = planarArm({"elbow", -2.0, 0.5}).robot();
   MotionPredictor predictor(optionsOf("constant_velocity"), robot);
   const auto bends = [](double t) { return RobotState{Eigen::Isometry3d::Identity(), {0.0, 0.1 + 0.6 * t}}; };
   const PredictedMotion motion = predicted(predictor, *robot, bends, 0.5);
@@ -129,7 +113,7 @@ TEST(MotionPredictorTest, BodiesStopWhereTheirJointsDo) {
 }
 
 TEST(MotionPredictorTest, TheJointsOfARobotMayCountTheirTurnsAnew) {
-  const auto robot = planarArm({"elbow", -INFINITY, INFINITY, /*continuous=*/true});
+  const auto robot = planarArm({"elbow", -INFINITY, INFINITY, /*continuous=*/true}).robot();
   MotionPredictor predictor(optionsOf("direct"), robot);
   const auto turns = [](double t) {
     return RobotState{Eigen::Isometry3d::Identity(), {0.0, std::remainder(2.0 * t, 2.0 * M_PI)}};
@@ -198,7 +182,7 @@ TEST(MotionPredictorTest, ItsCovariancesAreThoseOfErrorsOfJointsAndRoot) {
 // Both joints at 3 rad/s: in 0.1 s, the end of the arm leaves its chord by 3 cm. In a step that was cut, no point leaves
 // the Motion of its body by more than is said.
 TEST(MotionPredictorTest, StepsInWhichABodyLeavesItsMotionAreCutAndSaySo) {
-  const auto robot = planarArm();
+  const auto robot = planarArm().robot();
   MotionPredictor predictor(optionsOf("constant_velocity"), robot);
   const StateAt truth = [](double t) { return RobotState{Eigen::Isometry3d::Identity(), {3.0 * t, 3.0 * t}}; };
   const PredictedMotion motion = predicted(predictor, *robot, truth, 0.5);
@@ -226,7 +210,7 @@ TEST(MotionPredictorTest, StepsInWhichABodyLeavesItsMotionAreCutAndSaySo) {
 
 // The elbow turns back after 0.3 s, which nothing measured tells.
 TEST(MotionPredictorTest, ATrajectoryUnderWayIsPredictedInStepsOf20Milliseconds) {
-  const auto robot = planarArm();
+  const auto robot = planarArm().robot();
   const StateAt truth = [](double t) {
     return RobotState{Eigen::Isometry3d::Identity(), {0.0, t < 0.8 ? t : 1.6 - t}};
   };
@@ -252,7 +236,7 @@ TEST(MotionPredictorTest, ATrajectoryUnderWayIsPredictedInStepsOf20Milliseconds)
 }
 
 TEST(MotionPredictorTest, ARobotThatLeavesItsTrajectoryIsPredictedAsMeasured) {
-  const auto robot = planarArm();
+  const auto robot = planarArm().robot();
   const StateAt rests = [](double) { return RobotState{Eigen::Isometry3d::Identity(), {0.0, 0.0}}; };
   MotionPredictor predictor(optionsOf("constant_velocity"), robot);
   PredictedMotion motion = predicted(predictor, *robot, rests, 0.5);
@@ -265,7 +249,7 @@ TEST(MotionPredictorTest, ARobotThatLeavesItsTrajectoryIsPredictedAsMeasured) {
 }
 
 TEST(MotionPredictorTest, AllPathsAreEmptyUntilTheMotionOfEveryJointIsKnown) {
-  const auto robot = planarArm();
+  const auto robot = planarArm().robot();
   MotionPredictor predictor({}, robot);
   PredictedMotion motion;
   motion.from = poseAt(*robot, 0.0, {Eigen::Isometry3d::Identity(), {0.0, 0.0}});

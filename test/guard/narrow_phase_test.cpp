@@ -17,21 +17,7 @@ constexpr double kMaxRotation = 0.175;
 constexpr std::uint32_t kCells = 24;  // along each side of a sheet of 2 m
 
 TriangleMesh sheet(Random& random, double height) {
-  std::vector<Vector3d> vertices;
-  std::vector<Triangle> triangles;
-  for (std::uint32_t row = 0; row <= kCells; ++row) {
-    for (std::uint32_t column = 0; column <= kCells; ++column) {
-      vertices.emplace_back(2.0 * column / kCells - 1.0, 2.0 * row / kCells - 1.0, random.uniform(0.0, height));
-    }
-  }
-  for (std::uint32_t row = 0; row < kCells; ++row) {
-    for (std::uint32_t column = 0; column < kCells; ++column) {
-      const std::uint32_t at = row * (kCells + 1) + column;
-      triangles.push_back({at, at + 1, at + kCells + 2});
-      triangles.push_back({at, at + kCells + 2, at + kCells + 1});
-    }
-  }
-  return TriangleMesh(vertices, triangles);
+  return gridSurface(kCells, 2.0, [&](double /*x*/, double /*y*/) { return random.uniform(0.0, height); });
 }
 
 TriangleMesh moved(Random& random, const TriangleMesh& mesh, double distance) {

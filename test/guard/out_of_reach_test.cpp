@@ -10,6 +10,7 @@
 #include "guard/guard_results.h"
 #include "guard/path_in_mesh.h"
 #include "guard/times.h"
+#include "guard/two_links.h"
 #include "guard/united_bodies.h"
 #include "kinematics/random_robot.h"
 #include "scenes.h"
@@ -45,15 +46,7 @@ std::shared_ptr<const Workpiece> updated(const Workpiece& before, std::vector<fl
 class BallOverASheetTest : public testing::Test {
  protected:
   static std::shared_ptr<const Robot> twoBalls() {
-    std::vector<TreeLink> links(2);
-    std::vector<std::pair<size_t, std::vector<ConvexPiece>>> pieces;
-    for (size_t i = 0; i < 2; ++i) {
-      links[i].name = i == 0 ? "ball" : "other";
-      links[i].type = JointType::kPrismatic;
-      links[i].variable = i;
-      pieces.push_back({i, {{links[i].name, ConvexShape::sphere(0.01)}}});
-    }
-    return std::make_shared<const Robot>(robotOf({{{"one"}, {"two"}}, links}, pieces));
+    return TwoLinks("ball", "other", JointType::kPrismatic, ConvexShape::sphere(0.01)).robot();
   }
 
   static std::vector<float> sheetAt(float z) { return {-1, -1, z, 1, -1, z, 0, 1, z}; }

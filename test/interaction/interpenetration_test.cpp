@@ -19,6 +19,18 @@ Interpenetration find(const ConvexShape& shape_T, const TriangleMesh& mesh_M, co
   return InterpenetrationFinder(shape_T).find(mesh_M, X_MT);
 }
 
+struct Tolerances {
+  double volume, centroid, area, reach;
+};
+
+// Of a box as a piece, whose lower centimeter is pressed into a face.
+void expectLowerCentimeter(const Interpenetration& found, const Tolerances& within) {
+  EXPECT_NEAR(found.volume, 0.02 * 0.04 * 0.01, within.volume);
+  EXPECT_TRUE(found.centroid_T.isApprox(Vector3d(0.0, 0.0, -0.025), within.centroid)) << found.centroid_T.transpose();
+  EXPECT_TRUE(found.area_T.isApprox(Vector3d(0.0, 0.0, 0.02 * 0.04), within.area)) << found.area_T.transpose();
+  EXPECT_NEAR(found.reach, 0.01, within.reach);
+}
+
 TEST(PieceVolumeTest, IsThatOfTheShape) {
   const auto volume = [](const ConvexShape& shape_T) { return InterpenetrationFinder(shape_T).pieceVolume(); };
   EXPECT_NEAR(volume(ConvexShape::box(kHalfPiece)), 8.0 * kHalfPiece.prod(), 1e-18);
@@ -46,10 +58,7 @@ TEST(InterpenetrationTest, OfABoxPressedIntoAFaceIsItsPartBehindTheFace) {
     const TriangleMesh mesh = boxMesh({1.0, 1.0, 1.0}, inside_out);
     const Interpenetration found = find(ConvexShape::box(kHalfPiece), mesh, placedAt(0.1, 0.2, 1.02));
     EXPECT_TRUE(found.enclosed);
-    EXPECT_NEAR(found.volume, 0.02 * 0.04 * 0.01, 1e-18);
-    EXPECT_TRUE(found.centroid_T.isApprox(Vector3d(0.0, 0.0, -0.025), 1e-11)) << found.centroid_T.transpose();
-    EXPECT_TRUE(found.area_T.isApprox(Vector3d(0.0, 0.0, 0.02 * 0.04), 1e-12)) << found.area_T.transpose();
-    EXPECT_NEAR(found.reach, 0.01, 1e-14);
+    expectLowerCentimeter(found, {1e-18, 1e-11, 1e-12, 1e-14});
   }
 }
 
@@ -93,10 +102,7 @@ TEST(InterpenetrationTest, WithAnOpenMeshIsWhatLiesBehindIt) {
     const TriangleMesh mesh = sheet(0.1, cells);
     const Interpenetration found = find(ConvexShape::box(kHalfPiece), mesh, placedAt(0.011, 0.012, 0.02));
     EXPECT_FALSE(found.enclosed);
-    EXPECT_NEAR(found.volume, 0.02 * 0.04 * 0.01, 1e-17);
-    EXPECT_TRUE(found.centroid_T.isApprox(Vector3d(0.0, 0.0, -0.025), 1e-9)) << found.centroid_T.transpose();
-    EXPECT_TRUE(found.area_T.isApprox(Vector3d(0.0, 0.0, 0.02 * 0.04), 1e-9)) << found.area_T.transpose();
-    EXPECT_NEAR(found.reach, 0.01, 1e-12);
+    expectLowerCentimeter(found, {1e-17, 1e-9, 1e-9, 1e-12});
     EXPECT_EQ(find(ConvexShape::box(kHalfPiece), mesh, placedAt(0.0, 0.0, -0.04)).volume, 0.0);
   }
 }

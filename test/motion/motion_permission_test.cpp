@@ -33,6 +33,15 @@ class MotionPermissionTest : public testing::Test {
     EXPECT_EQ(std::string(textOf(decision.cause)), textOf(cause));
   }
 
+  // The tool may move with the oldest value, and stops at the next older one.
+  template <typename TimePoint>
+  void expectLimit(TimePoint& value, TimePoint oldest, TimePoint older, PermissionCause cause) {
+    value = oldest;
+    expect(Permission::kLimited, PermissionCause::kGuarded);
+    value = older;
+    expect(Permission::kStop, cause);
+  }
+
   std::optional<Timestamps> command_ = received(990);
   const std::shared_ptr<PlaneSet> planes_ = std::make_shared<PlaneSet>();
   MotionInputs inputs_;
@@ -61,10 +70,7 @@ TEST_F(MotionPermissionTest, NeedsACommandThatIsFreshOnBothClocks) {
 }
 
 TEST_F(MotionPermissionTest, NeedsAWarningWithinTheSilence) {
-  inputs_.warning->received = at(850).steady;
-  expect(Permission::kLimited, PermissionCause::kGuarded);
-  inputs_.warning->received = at(849).steady;
-  expect(Permission::kStop, PermissionCause::kWarningSilent);
+  expectLimit(inputs_.warning->received, at(850).steady, at(849).steady, PermissionCause::kWarningSilent);
   inputs_.warning.reset();
   expect(Permission::kStop, PermissionCause::kNoWarning);
 }
@@ -87,35 +93,23 @@ TEST_F(MotionPermissionTest, WhereNoCameraSeesAloneIsNoReasonToStop) {
 }
 
 TEST_F(MotionPermissionTest, NeedsPlanesWithinTheSilence) {
-  planes_->timestamps.received = at(850).steady;
-  expect(Permission::kLimited, PermissionCause::kGuarded);
-  planes_->timestamps.received = at(849).steady;
-  expect(Permission::kStop, PermissionCause::kPlanesSilent);
+  expectLimit(planes_->timestamps.received, at(850).steady, at(849).steady, PermissionCause::kPlanesSilent);
   inputs_.planes.reset();
   expect(Permission::kStop, PermissionCause::kNoPlanes);
 }
 
 TEST_F(MotionPermissionTest, NeedsPlanesThatAreValid) {
-  planes_->valid_until = at(1000).stamp;
-  expect(Permission::kLimited, PermissionCause::kGuarded);
-  planes_->valid_until = at(999).stamp;
-  expect(Permission::kStop, PermissionCause::kPlanesExpired);
+  expectLimit(planes_->valid_until, at(1000).stamp, at(999).stamp, PermissionCause::kPlanesExpired);
 }
 
 TEST_F(MotionPermissionTest, NeedsAPoseWithinTheSilence) {
-  inputs_.pose->timestamps.received = at(850).steady;
-  expect(Permission::kLimited, PermissionCause::kGuarded);
-  inputs_.pose->timestamps.received = at(849).steady;
-  expect(Permission::kStop, PermissionCause::kPoseSilent);
+  expectLimit(inputs_.pose->timestamps.received, at(850).steady, at(849).steady, PermissionCause::kPoseSilent);
   inputs_.pose.reset();
   expect(Permission::kStop, PermissionCause::kNoPose);
 }
 
 TEST_F(MotionPermissionTest, NeedsAPoseThatIsNotOldByItsStamp) {
-  inputs_.pose->timestamps.stamp = at(500).stamp;
-  expect(Permission::kLimited, PermissionCause::kGuarded);
-  inputs_.pose->timestamps.stamp = at(499).stamp;
-  expect(Permission::kStop, PermissionCause::kOldPose);
+  expectLimit(inputs_.pose->timestamps.stamp, at(500).stamp, at(499).stamp, PermissionCause::kOldPose);
 }
 
 TEST_F(MotionPermissionTest, NeedsPlanesOfAllWorkpiecesForAKnownTool) {

@@ -18,6 +18,7 @@
 
 #include "guard_probe.h"
 #include "refusal.h"
+#include "transform_message.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -77,11 +78,8 @@ class CameraTest : public ::testing::Test {
   // One meter above the origin, it looks down.
   static tf2_msgs::TFMessage mount() {
     tf2_msgs::TFMessage mount;
-    mount.transforms.resize(1);
-    mount.transforms[0].header.frame_id = "world";
-    mount.transforms[0].child_frame_id = "front_optical";
-    mount.transforms[0].transform.translation.z = 1.0;
-    mount.transforms[0].transform.rotation.x = 1.0;
+    const Eigen::Quaterniond half_turn(0.0, 1.0, 0.0, 0.0);
+    mount.transforms = {transformMsg("world", "front_optical", Eigen::Translation3d(0.0, 0.0, 1.0) * half_turn)};
     return mount;
   }
 

@@ -76,10 +76,10 @@ TEST_F(FrameBufferTest, WhatStandsOnItMovesWithIt) {
 TEST_F(FrameBufferTest, WhatWasSampledOnItMovesWithIt) {
   rest("base", "world", 1.0);
   rest("mount", "base", 0.1);
-  move("camera", "mount", 99.0, 0.5);
-  move("lens", "camera", 99.0, 0.01);
-  move("camera", "mount", 105.0, 0.5);
-  move("lens", "camera", 105.0, 0.01);
+  for (const double stamp : {99.0, 105.0}) {
+    move("camera", "mount", stamp, 0.5);
+    move("lens", "camera", stamp, 0.01);
+  }
   for (const double stamp : {100.0, 101.0, 102.0}) move("base", "world", stamp, stamp - 98.0);
   EXPECT_NEAR(x("camera", 99.5), 1.6, 1e-12) << "before";
   for (const double stamp : {100.0, 100.5, 101.75}) {

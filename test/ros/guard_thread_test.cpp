@@ -7,9 +7,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
 #include <future>
 #include <limits>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "guard/fake_detector.h"
 #include "scenes.h"
@@ -67,10 +70,34 @@ class GuardThreadTest : public ::testing::Test {
   // Once the poses taken are swept, none waits: the detector is asked about a predicted sweep.
   bool inPrediction() const { return !queue_.waitingSince(); }
 
+  std::uint64_t predictionsMade() { return statistics_.take().predictions_total; }
+
+  struct Step {
+    std::function<bool()> is_due;
+    std::function<void()> run;
+  };
+  // Pushes a pose in a prediction. Then runs each step once, in the guard's thread, when the detector is asked while it is due and
+  // those before have begun.
+  void pushInPredictionAndThen(std::vector<Step> steps) {
+    push();
+    passTheQueue();
+    steps.insert(steps.begin(), {[this] { return inPrediction(); },
+                                 [this] {
+                                   predictions_before_ = predictionsMade();
+                                   push();
+                                 }});
+    record_.asked = [this, steps = std::move(steps)] {
+      if (begun_ < steps.size() && steps[begun_].is_due()) steps[begun_++].run();
+    };
+    push();
+  }
+
   sweep_guard_core::Time stamp_;
   int pushed_ = 0;
   sweep_guard_core::FakeDetector::Record record_;
   std::thread::id shapes_made_by_;
+  size_t begun_ = 0;  // steps; used by the guard's thread only, as the next two
+  std::uint64_t predictions_before_ = 0;
   bool interrupted_ = false;  // a prediction; used by the guard's thread only
   ros::NodeHandle node_ = privateNode();
   LiveParameters parameters_{loadParameters(node_)};
@@ -97,26 +124,14 @@ class GuardThreadTest : public ::testing::Test {
 
 // A pose comes during a prediction, so that another one follows. Two come during that. The first sweep takes longer than a prediction may be held up, so the second pose is left for the time after it.
 TEST_F(GuardThreadTest, APoseThatIsLeftWhenAPredictionGoesOnIsSweptAfterIt) {
-  push();
-  passTheQueue();
-  enum { kBefore, kFollows, kPushed, kSlow } state = kBefore;  // used by the guard's thread only
-  std::uint64_t predictions = 0;
-  record_.asked = [&] {
-    if (state == kBefore && inPrediction()) {
-      state = kFollows;
-      predictions = statistics_.take().predictions_total;
-      push();
-    } else if (state == kFollows && inPrediction() && statistics_.take().predictions_total > predictions) {
-      state = kPushed;
-      push();
-      push(/*frame_is_known=*/false);  // else the first one would not be swept alone
-    } else if (state == kPushed && !inPrediction()) {
-      state = kSlow;
-      std::this_thread::sleep_for(milliseconds(60));  // the time that this sweep takes
-    }
-  };
-  push();
-  EXPECT_TRUE(await([&] { return state == kSlow && !queue_.waitingSince(); }));
+  pushInPredictionAndThen({{[&] { return inPrediction() && predictionsMade() > predictions_before_; },
+                            [&] {
+                              push();
+                              push(/*frame_is_known=*/false);  // else the first one would not be swept alone
+                            }},
+                           {[&] { return !inPrediction(); },
+                            [] { std::this_thread::sleep_for(milliseconds(60)); }}});  // the time that this sweep takes
+  EXPECT_TRUE(await([&] { return begun_ == 3 && !queue_.waitingSince(); }));
   EXPECT_EQ(pushed_, 5);
   EXPECT_EQ(statistics_.take().sweeps_total, 5U);
   EXPECT_FALSE(queue_.waitingSince());
@@ -135,13 +150,13 @@ TEST_F(GuardThreadTest, OtherTrianglesArePredictedAtOnce) {
   for (int i = 0; i < 3; ++i) push();
   std::uint64_t predictions = 0;
   ASSERT_TRUE(await([&] {
-    predictions = statistics_.take().predictions_total;
+    predictions = predictionsMade();
     return slow;
   }));
   const auto begin = now().steady;
   workpieces_.set({"wavy", 2, now().stamp, begin, "world", sweep_guard_core::wavyHull(20, 30, 0.0)}, now().stamp);
   push();
-  EXPECT_TRUE(await([&] { return statistics_.take().predictions_total > predictions; }));
+  EXPECT_TRUE(await([&] { return predictionsMade() > predictions; }));
   EXPECT_LT(now().steady - begin, milliseconds(400));
 }
 
@@ -162,25 +177,11 @@ TEST_F(GuardThreadTest, WhatWaitsWhenTimeJumpsIsSweptAndReported) {
 }
 
 TEST_F(GuardThreadTest, APredictionGoesOnAfterAPoseThatCameMeanwhileIsSwept) {
-  push();
+  pushInPredictionAndThen(
+      {{[&] { return !inPrediction(); }, [] {}},
+       {[&] { return inPrediction(); }, [&] { EXPECT_EQ(predictionsMade(), predictions_before_); }}});
   passTheQueue();
-  enum { kBefore, kPushed, kSwept, kGoesOn } state = kBefore;  // used by the guard's thread only
-  std::uint64_t predictions = 0;
-  record_.asked = [&] {
-    if (state == kBefore && inPrediction()) {
-      state = kPushed;
-      predictions = statistics_.take().predictions_total;
-      push();
-    } else if (state == kPushed && !inPrediction()) {
-      state = kSwept;
-    } else if (state == kSwept && inPrediction()) {
-      state = kGoesOn;
-      EXPECT_EQ(statistics_.take().predictions_total, predictions);
-    }
-  };
-  push();
-  passTheQueue();
-  EXPECT_EQ(state, kGoesOn);
+  EXPECT_EQ(begun_, 3U);
   EXPECT_EQ(statistics_.take().sweeps_total, 3U);
 }
 
@@ -192,7 +193,7 @@ TEST_F(GuardThreadTest, LeavesTimeBetweenPredictionsAndPredictsFromTheNewestPose
   std::vector<std::uint64_t> made;  // used by the guard's thread only, as the next one
   std::vector<sweep_guard_core::SteadyTime> begun;
   record_.asked = [&] {
-    const std::uint64_t predictions = statistics_.take().predictions_total;
+    const std::uint64_t predictions = predictionsMade();
     if (!inPrediction() || (!made.empty() && made.back() == predictions)) return;
     made.push_back(predictions);
     begun.push_back(now().steady);

@@ -30,13 +30,15 @@ using trajectory_msgs::JointTrajectory;
 constexpr double kClose = 0.01;  // gap [m]
 const std::vector<std::string> kJoints = {"shoulder", "elbow", "jaw"};
 
-// A command of two joints: the shoulder moves the ball down if it is > 0, the elbow, too.
-JointJog jog(double shoulder, double elbow) {
+JointJog jogOf(const std::vector<std::string>& joints, const std::vector<double>& velocities) {
   JointJog message;
-  message.joint_names = {"shoulder", "elbow"};
-  message.velocities = {shoulder, elbow};
+  message.joint_names = joints;
+  message.velocities = velocities;
   return message;
 }
+
+// A command of two joints: the shoulder moves the ball down if it is > 0, the elbow, too.
+JointJog jog(double shoulder, double elbow) { return jogOf({"shoulder", "elbow"}, {shoulder, elbow}); }
 
 JointTrajectory trajectory(double shoulder, double elbow) {
   JointTrajectory message;
@@ -155,20 +157,14 @@ TEST_F(JointMotionTest, ArraysAreScaledAsAWholeAndARetreatIsPassedOn) {
 TEST_F(JointMotionTest, WhatIsNoVelocityOfAKnownJointIsRefusedInWords) {
   Driven<JointJog> driven("jog");
   driven.awaitWhole(jog(0.1, 0.1));
-  JointJog command = jog(0.1, 0.1);
-  command.joint_names[1] = "wrist";
-  driven.awaitRefusal(command, "joint 'wrist' is none of the robot's below 'base'");
+  driven.awaitRefusal(jogOf({"shoulder", "wrist"}, {0.1, 0.1}), "joint 'wrist' is none of the robot's below 'base'");
   driven.awaitWhole(jog(0.1, 0.1));
-  command.joint_names[1] = "other_jaw";
-  driven.awaitRefusal(command, "mimics another one");
-  command.joint_names[1] = "shoulder";
-  driven.awaitRefusal(command, "joint 'shoulder' is named twice");
+  driven.awaitRefusal(jogOf({"shoulder", "other_jaw"}, {0.1, 0.1}), "mimics another one");
+  driven.awaitRefusal(jogOf({"shoulder", "shoulder"}, {0.1, 0.1}), "joint 'shoulder' is named twice");
   driven.awaitRefusal(jog(0.1, std::nan("")), "commanded joint velocities refused");
-  command = jog(0.1, 0.1);
-  command.velocities.pop_back();
-  driven.awaitRefusal(command, "there are 1 velocities for 2 joints");
+  driven.awaitRefusal(jogOf({"shoulder", "elbow"}, {0.1}), "there are 1 velocities for 2 joints");
   driven.awaitWhole(jog(0.1, 0.1));
-  command = jog(0.1, 0.1);
+  JointJog command = jog(0.1, 0.1);
   command.displacements = {0.1, 0.1};
   driven.awaitRefusal(command, "displacements are not limited");
 }
@@ -176,17 +172,12 @@ TEST_F(JointMotionTest, WhatIsNoVelocityOfAKnownJointIsRefusedInWords) {
 // The zero of a refusal is for the joints that move.
 TEST_F(JointMotionTest, ARefusedCommandOfOtherJointsStopsThoseOfTheCommandBefore) {
   Driven<JointJog> driven("jog");
-  JointJog command;
   for (const double refused : {std::numeric_limits<double>::infinity(), std::nan("")}) {
     driven.awaitWhole(jog(0.1, 0.1));
-    command.joint_names = {"elbow"};
-    command.velocities = {refused};
-    driven.awaitRefusal(command, "commanded joint velocities refused");
+    driven.awaitRefusal(jogOf({"elbow"}, {refused}), "commanded joint velocities refused");
   }
   driven.awaitWhole(jog(0.1, 0.1));
-  command.joint_names.clear();
-  command.velocities.clear();
-  driven.awaitRefusal(command, "it names no joint");
+  driven.awaitRefusal(JointJog(), "it names no joint");
 }
 
 TEST_F(JointMotionTest, AJointThatIsNamedNoMoreIsSentZeroFirst) {
@@ -201,10 +192,7 @@ TEST_F(JointMotionTest, AJointThatIsNamedNoMoreIsSentZeroFirst) {
   driven.commands.send(jog(0.1, 0.1));
   driven.sent.await("two joints", [&](const JointJog& now) { return heard && now.velocities.size() == 2; });
   zero = false;
-  JointJog command;
-  command.joint_names = {"elbow"};
-  command.velocities = {0.2};
-  driven.awaitWhole(command);
+  driven.awaitWhole(jogOf({"elbow"}, {0.2}));
   driven.sent.await("zero of both", [&](const JointJog& /*now*/) { return zero.load(); });
 }
 
@@ -224,11 +212,8 @@ TEST_F(JointMotionTest, ATrajectoryThatBeginsLaterIsRefusedAndTheZeroOfOneThatBe
 TEST_F(JointMotionTest, AJointThatTheGuardDoesNotKnowIsRefused) {
   Driven<JointJog> driven("jog");
   driven.awaitWhole(jog(0.1, 0.1));
-  JointJog command = jog(0.1, 0.1);
-  command.joint_names[1] = "pan";
-  driven.awaitRefusal(command, "joint 'pan'");
-  command.velocities[1] = 0.0;
-  driven.awaitWhole(command);
+  driven.awaitRefusal(jogOf({"shoulder", "pan"}, {0.1, 0.1}), "joint 'pan'");
+  driven.awaitWhole(jogOf({"shoulder", "pan"}, {0.1, 0.0}));
 }
 
 TEST_F(JointMotionTest, PositionsAndLongerTrajectoriesAreRefusedInWords) {

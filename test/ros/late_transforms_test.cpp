@@ -1,6 +1,5 @@
 // Transforms that come late, seldom or changed: no contact is lost, and the warning does not flicker. The test is the clock.
 #include <gtest/gtest.h>
-#include <tf2_eigen/tf2_eigen.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include "connected_publisher.h"
 #include "node_fixture.h"
 #include "refusal.h"
+#include "transform_message.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -22,11 +22,7 @@ constexpr double kStep = 0.02;  // between poses [s]
 
 geometry_msgs::TransformStamped transformTo(const std::string& child, ros::Time stamp, const Eigen::Vector3d& place,
                                             const std::string& parent = "world") {
-  geometry_msgs::TransformStamped transform = tf2::eigenToTransform(Eigen::Isometry3d(Eigen::Translation3d(place)));
-  transform.header.frame_id = parent;
-  transform.header.stamp = stamp;
-  transform.child_frame_id = child;
-  return transform;
+  return transformMsg(parent, child, Eigen::Isometry3d(Eigen::Translation3d(place)), stamp);
 }
 
 class LateTransformsTest : public NodeTest {

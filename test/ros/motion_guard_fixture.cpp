@@ -3,6 +3,8 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include "ros/transform_message.h"
+
 namespace sweep_guard_ros {
 namespace {
 
@@ -40,15 +42,9 @@ sweep_guard::Proximity wall(const ros::Time& now, const Eigen::Isometry3d& X_WT,
 
 tf2_msgs::TFMessage frames() {
   tf2_msgs::TFMessage frames;
-  frames.transforms.resize(2);
-  frames.transforms[0].header.frame_id = "tool";
-  frames.transforms[0].child_frame_id = "tip";
-  frames.transforms[0].transform.translation.x = 0.1;
-  frames.transforms[0].transform.rotation.w = 1.0;
-  frames.transforms[1].header.frame_id = "world";
-  frames.transforms[1].child_frame_id = "turned";
-  frames.transforms[1].transform.rotation.z = std::sqrt(0.5);
-  frames.transforms[1].transform.rotation.w = std::sqrt(0.5);
+  const Eigen::Isometry3d quarter_turn(Eigen::AngleAxisd(M_PI_2, Eigen::Vector3d::UnitZ()));
+  frames.transforms = {transformMsg("tool", "tip", Eigen::Isometry3d(Eigen::Translation3d(0.1, 0.0, 0.0))),
+                       transformMsg("world", "turned", quarter_turn)};
   return frames;
 }
 
@@ -56,15 +52,7 @@ tf2_msgs::TFMessage frames() {
 tf2_msgs::TFMessage joined(const std::string& parent, const std::string& child, const Eigen::Isometry3d& X_PC,
                            const ros::Time& now) {
   tf2_msgs::TFMessage frames;
-  frames.transforms.resize(1);
-  frames.transforms[0].header.frame_id = parent;
-  frames.transforms[0].header.stamp = now;
-  frames.transforms[0].child_frame_id = child;
-  const geometry_msgs::Pose pose = toMsg(X_PC);
-  frames.transforms[0].transform.translation.x = pose.position.x;
-  frames.transforms[0].transform.translation.y = pose.position.y;
-  frames.transforms[0].transform.translation.z = pose.position.z;
-  frames.transforms[0].transform.rotation = pose.orientation;
+  frames.transforms = {transformMsg(parent, child, X_PC, now)};
   return frames;
 }
 

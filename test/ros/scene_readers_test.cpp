@@ -14,6 +14,7 @@
 #include "ros/collision_object.h"
 #include "ros/scene/scene_reader.h"
 #include "ros/sent_message.h"
+#include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -49,12 +50,7 @@ SceneChange only(const SceneUpdate& update) {
 }
 
 geometry_msgs::Pose pose(double x = 0.0, double y = 0.0, double z = 0.0) {
-  geometry_msgs::Pose pose;
-  pose.position.x = x;
-  pose.position.y = y;
-  pose.position.z = z;
-  pose.orientation.w = 1.0;
-  return pose;
+  return sweep_guard_ros::toMsg(Eigen::Isometry3d(Eigen::Translation3d(x, y, z)));
 }
 
 class MarkerReaderTest : public testing::Test {

@@ -1,10 +1,10 @@
 // With the tool pose from tf, every received transform is swept like a pose on the topic.
 #include <gtest/gtest.h>
-#include <tf2_eigen/tf2_eigen.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include "connected_publisher.h"
 #include "guard_probe.h"
+#include "transform_message.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -21,22 +21,13 @@ GuardProbe& tfProbe() {
   return probe;
 }
 
-geometry_msgs::TransformStamped transformTo(const std::string& child, const std::string& parent, ros::Time stamp,
-                                            const Eigen::Isometry3d& X) {
-  geometry_msgs::TransformStamped transform = tf2::eigenToTransform(X);
-  transform.header.frame_id = parent;
-  transform.header.stamp = stamp;
-  transform.child_frame_id = child;
-  return transform;
-}
-
 // The base rests, and the drill on it. Then a driver moves the base.
 TEST(TfSourceTest, AToolThatNothingMovesIsAtRestUntilSomethingDoes) {
   GuardProbe& probe = tfProbe();
   ConnectedPublisher<tf2_msgs::TFMessage> mount("/tf_static", /*latch=*/true);
   tf2_msgs::TFMessage at_rest;
-  at_rest.transforms = {transformTo("base", "world", {}, Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.2))),
-                        transformTo("drill", "base", {}, pointingDownAt(0.3))};
+  at_rest.transforms = {transformMsg("world", "base", Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.2))),
+                        transformMsg("base", "drill", pointingDownAt(0.3))};
   (*mount).publish(at_rest);
   probe.place(squareAt("square", {0.0, 0.0, 0.0}, probe.time()));
   Warning warning;
@@ -52,7 +43,7 @@ TEST(TfSourceTest, AToolThatNothingMovesIsAtRestUntilSomethingDoes) {
     probe.tick(0.01);
     tf2_msgs::TFMessage moved;
     const Eigen::Isometry3d X(Eigen::Translation3d(0.0, 0.0, 0.2 - 0.03 * i));
-    moved.transforms = {transformTo("base", "world", probe.time(), X)};
+    moved.transforms = {transformMsg("world", "base", X, probe.time())};
     (*driver).publish(moved);
   }
   const std::vector<Contacts> contacts = probe.awaitContactsUpTo(probe.time());

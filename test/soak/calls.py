@@ -6,7 +6,8 @@ import time
 import rospy
 from dynamic_reconfigure.msg import BoolParameter, Config, DoubleParameter, StrParameter
 from dynamic_reconfigure.srv import Reconfigure
-from geometry_msgs.msg import PoseStamped
+from geometry_msgs.msg import Point, Pose, PoseStamped, Quaternion
+from std_msgs.msg import Header
 from std_srvs.srv import SetBool, Trigger
 from sweep_guard.msg import Intend
 from sweep_guard.srv import Acknowledge, CheckSweep, Predict, SetIntent
@@ -17,11 +18,7 @@ HIGHEST, LOWEST = 0.9, -0.4  # [m] a path between them meets the plate wherever 
 HIGH = 0.75  # [m] above the plate wherever it is
 
 def pose_at(z):
-    pose = PoseStamped()
-    pose.header.frame_id = 'world'
-    pose.pose.position.z = z
-    pose.pose.orientation.x = 1.0
-    return pose
+    return PoseStamped(Header(frame_id='world'), Pose(Point(z=z), Quaternion(x=1.0)))
 
 def path_request(*heights):
     return CheckSweep._request_class(path=[pose_at(z) for z in heights])

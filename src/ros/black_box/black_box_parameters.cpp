@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "common/floating_point.h"
+#include "ros/parameters/finish_reading.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_ros {
@@ -79,10 +79,8 @@ BlackBoxParameters loadBlackBoxParameters(const ros::NodeHandle& private_node) {
       read.flag("proximity", false, "Records ~proximity, too, which the guard then computes at every pose.");
   parameters.interaction =
       read.flag("interaction", false, "Records ~interaction, too, which the guard then computes at every pose.");
-  read.number("diagnostic_period", 1.0, {0.0, sweep_guard_core::kInfinity});  // set by diagnostic_updater
-  parameters.settings = read.settings();
+  parameters.settings = finishReading(read);
   parameters.described = read.described();
-  read.warnOfUnread();
   return parameters;
 }
 

@@ -36,12 +36,8 @@ void ForceCycle::stop() {
 
 ForceCycle::State ForceCycle::state() const {
   const sweep_guard_core::Lock lock(mutex_);
-  State state = state_;
-  state.energy = device_.energy();
-  state.tolerance = device_.tolerance();
-  state.turn_energy = device_.turnEnergy();
-  state.turn_tolerance = device_.turnTolerance();
-  return state;
+  return {state_.rendered,     state_.sent,          device_.energy(),
+          device_.tolerance(), device_.turnEnergy(), device_.turnTolerance()};
 }
 
 void ForceCycle::publish(const DeviceWrench& wrench) {

@@ -1,7 +1,7 @@
 #include "ros/haptics/haptics_parameters.h"
 
-#include "common/floating_point.h"
 #include "ros/motion/source_parameters.h"
+#include "ros/parameters/finish_reading.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -85,10 +85,8 @@ HapticsParameters loadHapticsParameters(const ros::NodeHandle& private_node) {
   parameters.realtime_priority = read.integer("realtime_priority", 50, 0, 99,
                                               "SCHED_FIFO priority of the sending thread; 0: none. If the system "
                                               "refuses, log and diagnostics say what to set.");
-  read.number("diagnostic_period", 1.0, {0.0, sweep_guard_core::kInfinity});  // set by diagnostic_updater
-  parameters.settings = read.settings();
+  parameters.settings = finishReading(read);
   parameters.described = read.described();
-  read.warnOfUnread();
   return parameters;
 }
 

@@ -3,7 +3,6 @@
 #include <std_msgs/Bool.h>
 
 #include <algorithm>
-#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -11,6 +10,7 @@
 #include "ros/merger/heard_warning.h"
 #include "ros/output/flush.h"
 #include "ros/output/run_id.h"
+#include "ros/parameters/finish_reading.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/monitor/reason.h"
@@ -70,9 +70,7 @@ WarningMergerNode::WarningMergerNode(const ros::NodeHandle& node, const ros::Nod
       newest_(merger_.guards().size()),
       updater_(node, private_node, private_node.getNamespace()),
       peer_watch_(master_watch_.thread(), [this] { return aGuardIsSilent(); }) {
-  read.number("diagnostic_period", 1.0, {0.0, std::numeric_limits<double>::infinity()});  // set by diagnostic_updater
-  read.warnOfUnread();
-  settings_ = read.settings();
+  settings_ = finishReading(read);
   published_.run_id = randomRunId();
   publisher_ = ros::NodeHandle(private_node).advertise<sweep_guard::Warning>("warning", 10);
   reflex_ = ros::NodeHandle(private_node).advertise<std_msgs::Bool>("reflex_warning", 10);

@@ -2,8 +2,8 @@
 
 #include <map>
 
-#include "common/floating_point.h"
 #include "ros/motion/source_parameters.h"
+#include "ros/parameters/finish_reading.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -106,13 +106,11 @@ MotionParameters loadMotionParameters(const ros::NodeHandle& private_node) {
   parameters.guard = readGuard(read);
   readTimes(read, parameters);
   readMotion(read, parameters);
-  read.number("diagnostic_period", 1.0, {0.0, sweep_guard_core::kInfinity});  // set by diagnostic_updater
   parameters.leash.dead_time = parameters.options.dead_time;
   parameters.leash.time_constant = parameters.options.time_constant;
   parameters.leash.deceleration = parameters.options.deceleration;
-  parameters.settings = read.settings();
+  parameters.settings = finishReading(read);
   parameters.described = read.described();
-  read.warnOfUnread();
   return parameters;
 }
 

@@ -5,10 +5,10 @@
 #include <geometry_msgs/WrenchStamped.h>
 
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "ros/output/flush.h"
+#include "ros/parameters/finish_reading.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -59,9 +59,7 @@ ZeroOnSilence::ZeroOnSilence(const ros::NodeHandle& node, const ros::NodeHandle&
       updater_(node, private_node, private_node.getNamespace()),
       supervisor_(Process::kOwn) {
   const std::string type = read.choice("command_type", "twist", {"twist", "twist_stamped", "wrench_stamped"});
-  read.number("diagnostic_period", 1.0, {0.0, std::numeric_limits<double>::infinity()});  // set by diagnostic_updater
-  read.warnOfUnread();
-  settings_ = read.settings();
+  settings_ = finishReading(read);
   updater_.setHardwareID("none");
   updater_.add("commands", [this](Status& status) { report(status); });
   zeros_.every(kZeroPeriod, [this] { sendZeroIfSilent(); });

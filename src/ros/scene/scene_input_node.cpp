@@ -3,11 +3,11 @@
 #include <ros/console.h>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "ros/connection/own_services.h"
 #include "ros/connection/publisher_links.h"
+#include "ros/parameters/finish_reading.h"
 #include "scene/primitives.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
@@ -60,9 +60,7 @@ SceneInputNode::SceneInputNode(const ros::NodeHandle& node, const ros::NodeHandl
                    [this](const std::string& id, const std::string& why) { reportAttachment(id, why); }),
       topics_id_("topics of " + printable(private_node.getNamespace(), kMaxNameLength / 2)),
       updater_(node, private_node, private_node.getNamespace()) {
-  read.number("diagnostic_period", 1.0, {0.0, std::numeric_limits<double>::infinity()});  // set by diagnostic_updater
-  read.warnOfUnread();
-  settings_ = read.settings();
+  settings_ = finishReading(read);
   Scene scene = readScene(scene_);
   topics_ = std::move(scene.topics);
   updater_.setHardwareID("none");

@@ -1,11 +1,11 @@
 #include "ros/sound/earcon_node.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "ros/connection/sole_publisher.h"
 #include "ros/merger/heard_warning.h"
 #include "ros/motion/absent_guard.h"
+#include "ros/parameters/finish_reading.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
 
@@ -42,9 +42,7 @@ EarconNode::EarconNode(const ros::NodeHandle& node, const ros::NodeHandle& priva
       rumble_(private_node, read.integer("rumble/id", 0, 0, 255), read.number("rumble/intensity", 1.0, {0.0, 1.0})),
       synthesizer_(kRate, read.number("volume", 1.0, {0.0, 1.0})),
       updater_(node, private_node, private_node.getNamespace()) {
-  read.number("diagnostic_period", 1.0, {0.0, std::numeric_limits<double>::infinity()});  // set by diagnostic_updater
-  read.warnOfUnread();
-  settings_ = read.settings();
+  settings_ = finishReading(read);
   updater_.setHardwareID("none");
   updater_.add("sound", [this](Status& status) { report(status); });
   subscriber_ = subscribeToSole<sweep_guard::Warning>(
