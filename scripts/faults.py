@@ -25,9 +25,9 @@ CORNERS = [(-0.1, -0.1), (0.1, -0.1), (0.0, 0.1)]
 IDS = {'left': -1.0, 'right': -2.0}  # workpieces and their heights [m]
 
 
-def publish_at(rate, publisher, message):
+def publish_at(hertz, publisher, message):
     """Publishes a message with the present time, again and again."""
-    rate = rospy.Rate(rate)
+    rate = rospy.Rate(hertz)
     while not rospy.is_shutdown():
         message.header.stamp = rospy.Time.now()
         publisher.publish(message)

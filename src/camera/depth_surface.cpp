@@ -74,6 +74,7 @@ void DepthSurface::take(const std::vector<float>& depths, const Eigen::Isometry3
   assert(depths.size() == size_t{grid_.width()} * grid_.height());
   const auto reach = static_cast<float>(options_.surface_speed * since);
   findRest(X_FC);
+  interrupted_ = true;
   free_.begin(X_FC_, rests_, since);
   before_F_.swap(places_before_F_);
   beginSelf(bodies_F);
@@ -81,13 +82,14 @@ void DepthSurface::take(const std::vector<float>& depths, const Eigen::Isometry3
   auto lower = std::async(kIfPossible, [&] { takeRows(depths, reach, halves_[1]); });
   takeRows(depths, reach, halves_[0]);
   lower.get();
-  for (Rows& half : halves_) {
+  for (Rows& half : halves_) {  // its last triangles reach into the next half
     if (half.first < half.end) findTriangles(half.end - kRows, half.pairs);
   }
   forgetGone(reach);
   placeUnseen();
   nearer_before_.swap(nearer_);
   free_.end(self_);
+  interrupted_ = false;
 }
 
 // A row of tiles goes through all steps while the processor's cache holds it. Its last triangles reach into the next one.
@@ -108,7 +110,7 @@ void DepthSurface::findRest(const Eigen::Isometry3d& X_FC) {
   const double farthest = options_.farthest * std::sqrt(1.0 + x_.front() * x_.front() + x_.back() * x_.back() +
                                                         y_.front() * y_.front() + y_.back() * y_.back());
   const double turned = (moved.linear() - Eigen::Matrix3d::Identity()).norm() * farthest;
-  rests_ = moved.translation().norm() + turned <= kStill;
+  rests_ = !interrupted_ && moved.translation().norm() + turned <= kStill;
   if (rests_) return;
   X_FC_ = X_FC;
   forget();
@@ -254,15 +256,15 @@ void DepthSurface::placeTiles(size_t row) {
 // Those of a half before the first that is seen.
 void DepthSurface::placeUnseen() {
   const size_t middle = placeOf(halves_[1].first);
-  if (middle > 0) place(middle, firstSeen(middle), middle - 1);
+  if (middle > 0) copyPlace(middle - 1, middle, firstSeen(middle));
   const size_t first = firstSeen(0);
-  if (first < grid_.places()) place(0, first, first);
+  if (first < grid_.places()) copyPlace(first, 0, first);
 }
 
-// From place `begin` to `end`, all are where one is.
-void DepthSurface::place(size_t begin, size_t end, size_t where) {
+// Puts the places from `begin` to `end` where `from` is.
+void DepthSurface::copyPlace(size_t from, size_t begin, size_t end) {
   for (std::vector<float>* const places_F : {&places_F_, &before_F_, &places_before_F_}) {
-    for (size_t i = begin; i < end; ++i) std::copy_n(&(*places_F)[3 * where], 3, &(*places_F)[3 * i]);
+    for (size_t i = begin; i < end; ++i) std::copy_n(&(*places_F)[3 * from], 3, &(*places_F)[3 * i]);
   }
 }
 

@@ -35,8 +35,8 @@ struct DepthOptions {
 /// A larger change says that something came or went. A camera rests as long as no point that it may see moves by more than kStill in
 /// the picture.
 ///
-/// Reads and writes each pixel once, a row of tiles after the other, on two threads. Once it is made, an image allocates what the
-/// second thread takes.
+/// Reads and writes each pixel once, a row of tiles after the other, on two threads. Once it is made, an image allocates only
+/// what starting the second thread takes.
 class DepthSurface {
  public:
   static constexpr double kStill = 1e-5;  ///< [m]; where it rests, its vertices are as far from where they are
@@ -88,11 +88,11 @@ class DepthSurface {
   static constexpr size_t kColumns = Grid::kTileColumns;
   static constexpr size_t kRows = Grid::kTileRows;
 
-  // That one thread takes: pixels, in whole rows of tiles.
+  // Rows of pixels that one thread takes: whole rows of tiles.
   struct Rows {
     size_t first, end;
-    std::vector<std::uint8_t>
-        pairs;  // of triangles of each pixel in a row of tiles: bits 0 and 1 are set if they exist
+    // Of the triangles of each pixel in a row of tiles: bits 0 and 1 are set if they exist.
+    std::vector<std::uint8_t> pairs;
   };
 
   void findRest(const Eigen::Isometry3d& X_FC);
@@ -115,7 +115,7 @@ class DepthSurface {
   // Those in a row of a tile. Where nothing is seen, that of the place before.
   void placeRow(size_t column, size_t row, const float* before_F, float* places_F) const;
   void placeUnseen();
-  void place(size_t begin, size_t end, size_t where);
+  void copyPlace(size_t from, size_t begin, size_t end);
   size_t firstSeen(size_t place) const;
   void forgetGone(float reach);
   bool isSeen(size_t place) const;
@@ -126,13 +126,13 @@ class DepthSurface {
   const Pinhole camera_;
   const DepthOptions options_;
   const DepthTolerance tolerance_;
-  std::vector<double> x_;       // of a ray at depth 1, by column of the tiles
-  std::vector<double> y_;       // by row
-  const size_t stride_;         // of the rows of the following, which have a column and a row more than the tiles
-  std::vector<float> inverse_;  // of the length of a ray up to depth 1; 0: beyond the image
-  std::vector<float> depths_;   // NaN: not seen
-  std::vector<float> nearer_;   // depth less the margin [m]; NaN: not seen
-  std::array<Rows, 2> halves_;
+  std::vector<double> x_;             // of a ray at depth 1, by column of the tiles
+  std::vector<double> y_;             // by row
+  const size_t stride_;               // of the rows of the following, which have a column and a row more than the tiles
+  std::vector<float> inverse_;        // of the length of a ray up to depth 1; 0: beyond the image
+  std::vector<float> depths_;         // NaN: not seen
+  std::vector<float> nearer_;         // depth less the margin [m]; NaN: not seen
+  std::array<Rows, 2> halves_;        // the upper one is empty if there is one row of tiles
   std::vector<float> remembered_;     // depth where a pixel last showed something else than the robot; NaN: never
   std::vector<float> farthest_;       // that was remembered; NaN: none
   std::vector<float> nearer_before_;  // of the image before; NaN: not seen, or nothing is known of it
@@ -142,6 +142,7 @@ class DepthSurface {
   std::vector<std::uint64_t> existing_;
   Eigen::Isometry3d X_FC_ = Eigen::Isometry3d::Identity();
   bool rests_ = false;
+  bool interrupted_ = false;  // by an exception, while the last image was taken
   SelfPixels self_;
   GonePixels gone_;
   std::vector<SweptVolume> bodies_F_;  // with the margin

@@ -30,7 +30,8 @@ class SelfPixels {
   /// @param bodies_F  convex volumes around the bodies, as much larger as what is near to them counts as the robot
   void begin(const Eigen::Isometry3d& X_FC, const std::vector<SweptVolume>& bodies_F);
 
-  /// Finds the pixels in a row of tiles, where a body may be in the picture. Several threads may, each in other rows.
+  /// Finds the pixels in a row of tiles, where a body may be in the picture. Several threads may call it at once, each
+  /// for rows of its own: no vertex of another row is read.
   void find(const SeenVertices& seen, size_t tile_row);
 
   /// Returns for each tile of the grid a bit for each of its pixels.

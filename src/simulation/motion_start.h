@@ -33,7 +33,7 @@ bool awaitDue(const PoseScheduler& scheduler, sweep_guard_core::Time stamp);
 /// subscribers. One thread.
 class MotionStart {
  public:
-  /// Reads `frame`, the tf frame W of the motion, and `min_subscribers`, for how many to wait.
+  /// Reads `frame`, the tf frame W of the motion, and `min_subscribers`, the number of subscribers to wait for.
   /// @throws sweep_guard_core::InvalidInput as ParameterReader
   explicit MotionStart(sweep_guard_ros::ParameterReader& parameters);
 
@@ -49,7 +49,7 @@ class MotionStart {
 
   void stopListening();  ///< to workpiece and warnings
 
-  const tf2_ros::Buffer& transforms() const { return buffer_; }  ///< as they come
+  const tf2_ros::Buffer& transforms() const { return buffer_; }  ///< received so far
 
  private:
   bool locate();

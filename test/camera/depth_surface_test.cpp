@@ -294,6 +294,20 @@ TEST_F(DepthMotionTest, TheMarginTakesTheRobotNotOutOfItsVolume) {
   EXPECT_GT(surface.self(), 50U);
 }
 
+TEST_F(DepthMotionTest, ARobotAllOverThePictureHidesAllThatWasSeen) {
+  SweptVolume robot = boxAt(0.5);
+  robot.box.half_extents = {1.0, 1.0, 0.05};
+  take(wall(1.0F), 0.0);
+  take(wall(1.0F), 0.0);
+  take(wall(0.5F), 0.0, {robot});
+  EXPECT_EQ(surface_.self(), size_t{kWidth} * kHeight);
+  EXPECT_EQ(surface_.hidden(), surface_.self());
+  for (std::uint32_t row = 0; row < kHeight; ++row) {
+    for (std::uint32_t column = 0; column < kWidth; ++column)
+      EXPECT_TRUE(now(column, row).isApprox(onRay(column, row, 1.0), 1e-6)) << column << ' ' << row;
+  }
+}
+
 // A camera's fault lasts for one image, and what came for more.
 TEST_F(DepthMotionTest, WhatOnlyOneImageShowsIsNotRemembered) {
   const std::vector<float> speck = withSpot(wall(1.0F), 0.9F);
@@ -370,6 +384,23 @@ TEST_F(DepthSurfaceTest, AnImageAllocatesNoMoreThanItsSecondThread) {
   mesh_F.deform(surface.places_F(), surface.before_F(), surface.existing());
   EXPECT_LE(allocations.count(), 3U) << allocations.stacks();
   EXPECT_LT(allocations.largest(), 1000U) << allocations.stacks();
+}
+
+// Half of it may be of another time.
+TEST_F(DepthSurfaceTest, WhatAnImageLeftThatRanOutOfMemoryIsForgotten) {
+  DepthSurface surface(grid_, kCamera, kExact);
+  const auto rests = [&] {
+    surface.take(wall(1.0F), Eigen::Isometry3d::Identity());
+    return surface.rests();
+  };
+  for (int i = 0; i < 3; ++i) rests();
+  const std::vector<float> depths = wall(1.0F);
+  {
+    const FailingAllocation failing(1);
+    EXPECT_THROW(surface.take(depths, Eigen::Isometry3d::Identity()), std::bad_alloc);
+  }
+  EXPECT_FALSE(rests());
+  EXPECT_TRUE(rests());
 }
 
 TEST_F(DepthSurfaceTest, ACameraOrARangeThatIsNoneIsRefused) {

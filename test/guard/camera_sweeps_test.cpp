@@ -128,7 +128,7 @@ TEST_F(CameraSweepsTest, TheFirstImageMeetsThePathSinceItsStamp) {
   }
 }
 
-TEST_F(CameraSweepsTest, AnImageBeforeTheFirstPoseInItsFrameIsToldAndMeetsThePathSinceThatPose) {
+TEST_F(CameraSweepsTest, AnImageBeforeTheFirstPoseInItsFrameIsReportedAsUnplacedAndMeetsThePathSinceThatPose) {
   const auto image = camera_.see(0.0, wall());
   PoseWithFrames pose = poseAt(0.01, {0.2, 0.1, 0.9});
   pose.X_WM.clear();

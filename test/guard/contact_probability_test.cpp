@@ -183,6 +183,7 @@ TEST(ContactProbabilityTest, GrowsWithDoubtAndFallsWithDistance) {
     EXPECT_LE(wall(distance + 0.01), wall(distance) + 1e-3);
 }
 
+// A tool, its motion, and how uncertain the end of it is.
 struct UncertainSweep {
   UncertainSweep(Random& random, int index)
       : i(index),

@@ -76,8 +76,7 @@ class GuardThreadTest : public ::testing::Test {
     std::function<bool()> is_due;
     std::function<void()> run;
   };
-  // Pushes a pose in a prediction. Then runs each step once, in the guard's thread, when the detector is asked while it is due and
-  // those before have begun.
+  // Pushes a pose in a prediction. Then, in the guard's thread: each time the detector is asked, runs the next step if it is due.
   void pushInPredictionAndThen(std::vector<Step> steps) {
     push();
     passTheQueue();
@@ -98,7 +97,7 @@ class GuardThreadTest : public ::testing::Test {
   std::thread::id shapes_made_by_;
   size_t begun_ = 0;  // steps; used by the guard's thread only, as the next two
   std::uint64_t predictions_before_ = 0;
-  bool interrupted_ = false;  // a prediction; used by the guard's thread only
+  bool interrupted_ = false;  // a prediction
   ros::NodeHandle node_ = privateNode();
   LiveParameters parameters_{loadParameters(node_)};
   Supervisor supervisor_{Process::kShared};

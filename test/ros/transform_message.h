@@ -16,7 +16,8 @@ inline geometry_msgs::TransformStamped transformMsg(const std::string& parent, c
   transform.header.stamp = stamp;
   transform.child_frame_id = child;
   transform.transform.translation = vectorMsg<geometry_msgs::Vector3>(X_PC.translation());
-  transform.transform.rotation = sweep_guard_ros::toMsg(X_PC).orientation;  // tf2_eigen has one in Eigen, too
+  transform.transform.rotation =
+      sweep_guard_ros::toMsg(X_PC).orientation;  // qualified: tf2_eigen has a toMsg() in namespace Eigen
   return transform;
 }
 

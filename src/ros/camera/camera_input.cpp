@@ -120,11 +120,11 @@ void CameraInput::take(const Msg& msg, SteadyTime received) {
     image->updates = number_;
     image->free_space = surface_->freeSpace();
     if (!dependencies_.show(image)) drop(received);
-    keepShares({stamp, received});
-    points_.publish(*surface_, depths_, stamp);
   } catch (const std::exception& error) {  // invalid, no transform, or out of memory
-    refuse(error.what(), received);
+    return refuse(error.what(), received);
   }
+  keepShares({*newest_, received});
+  points_.publish(*surface_, depths_, *newest_);
 }
 
 // Begins anew with a camera of another size or calibration, and after another tool, in whose place the surroundings were seen.

@@ -67,7 +67,7 @@ class CameraInput {
     std::optional<double> tool_found;
     bool rests;      ///< the camera: what the robot hides is remembered
     bool misplaced;  ///< for 5 s, less than half of the tool is where it is expected
-    double delay;    ///< from its stamp until its surface was found [s]
+    double delay;    ///< from its stamp until the guard had its surface [s]
   };
   std::optional<Shares> shares() const;  ///< of the newest image; empty: none has come
 

@@ -7,7 +7,7 @@
 namespace sweep_guard_ros {
 
 /// Reads `diagnostic_period`, which diagnostic_updater uses in every node, and warns of the parameters that were not read.
-/// @returns the settings of all that were
+/// @returns the settings of all parameters that were read
 inline ParameterReader::Settings finishReading(ParameterReader& read) {
   read.number("diagnostic_period", 1.0, {0.0, std::numeric_limits<double>::infinity()});
   read.warnOfUnread();
