@@ -34,8 +34,10 @@ void PoseFollower::takeBack() {
 
 const Eigen::Isometry3d& PoseFollower::hold(bool tool_is_known) {
   assert(begun());
-  if (!held_ && tool_is_known && tool_WT_) sent_WT_ = leash_.rest(*sent_WT_);
-  held_ = true;
+  if (!held_ && tool_is_known && tool_WT_) {
+    sent_WT_ = leash_.rest(*sent_WT_);
+    held_ = true;
+  }
   reached_ = false;
   return *sent_WT_;
 }

@@ -375,7 +375,7 @@ TEST(PoseReleaseTest, AToolThatStoodIsHeldWhereItStands) {
   }
 }
 
-TEST(PoseReleaseTest, WithoutAFreshPoseTheOneSentLastIsHeld) {
+TEST(PoseReleaseTest, WithoutAFreshPoseTheOneSentLastIsHeldUntilThereIsOne) {
   PoseFollower follower({kMaxPoseSpeed, kMaxPoseTurnRate, milliseconds(20), milliseconds(30), 50.0},
                         /*incremental=*/false);
   follower.begin(Isometry3d::Identity());
@@ -383,7 +383,7 @@ TEST(PoseReleaseTest, WithoutAFreshPoseTheOneSentLastIsHeld) {
   const double sent = follower.moveOn(follower.towards(placedAndTurned(0.4), milliseconds(10))).translation().x();
   ASSERT_GT(sent, 0.0);
   EXPECT_EQ(follower.hold(/*tool_is_known=*/false).translation().x(), sent);
-  EXPECT_EQ(follower.hold(/*tool_is_known=*/true).translation().x(), sent);
+  EXPECT_EQ(follower.hold(/*tool_is_known=*/true).translation().x(), 0.0);
 }
 
 TEST(PoseLeashTest, RefusesOptionsThatAreOutOfRange) {

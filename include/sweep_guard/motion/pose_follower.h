@@ -36,9 +36,9 @@ class PoseFollower {
   bool follows() const { return leash_.follows(); }  ///< false: the tool stays behind what was sent
   bool waits() const { return begun() && leash_.keepsWaiting(*sent_WT_); }  ///< for a tool that does not follow
 
-  /// Returns the pose to be sent at a stop: at the first call after moveOn(), where the tool comes to rest on its way to
-  /// the pose sent last; then the same. Only after begin().
-  /// @param tool_is_known  the newest observation shows where the tool is; false: the pose sent last is held
+  /// Returns the pose to be sent at a stop: at the first call after moveOn() at which the tool is known, where it comes to rest
+  /// on its way to the pose sent last; then the same. Only after begin().
+  /// @param tool_is_known  the newest observation shows where the tool is; false: until it does, the pose sent last is held
   const Eigen::Isometry3d& hold(bool tool_is_known);
 
   /// Returns the velocity that leads from the pose sent last to the command within `period`, or is as fast as is allowed.
