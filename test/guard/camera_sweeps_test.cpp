@@ -130,9 +130,8 @@ TEST_F(CameraSweepsTest, TheFirstImageMeetsThePathSinceItsStamp) {
 
 TEST_F(CameraSweepsTest, AnImageBeforeTheFirstPoseInItsFrameIsReportedAsUnplacedAndMeetsThePathSinceThatPose) {
   const auto image = camera_.see(0.0, wall());
-  PoseWithFrames pose = poseAt(0.01, {0.2, 0.1, 0.9});
-  pose.X_WM.clear();
-  const SweepReport before = reportOf(guard_, pose, {image});
+  const SweepReport before =
+      reportOf(guard_, {atSecond(0.01), SteadyTime(fromSeconds(0.01)), placedAt({0.2, 0.1, 0.9}), {}}, {image});
   EXPECT_EQ(before.unplaced, Workpieces{image});
   EXPECT_TRUE(before.failures.empty());
   EXPECT_FALSE(sweepTo(0.02, {0.2, 0.1, 0.9}, image).contact());
