@@ -28,9 +28,9 @@ std::filesystem::path writableFolder(const std::string& instead) {
 }
 
 std::filesystem::path readFolder(ParameterReader& read, const ros::NodeHandle& private_node) {
-  const std::filesystem::path folder = read.path("folder",
-                                                 "Folder of the recordings, for this node alone. Empty: the one with "
-                                                 "its name in $ROS_HOME/sweep_guard or ~/.ros/sweep_guard.");
+  std::filesystem::path folder = read.path("folder",
+                                           "Folder of the recordings, for this node alone. Empty: the one with "
+                                           "its name in $ROS_HOME/sweep_guard or ~/.ros/sweep_guard.");
   if (!folder.empty() && !folder.is_absolute()) {
     throw sweep_guard_core::InvalidInput("parameter folder is " + folder.string() + ", but must be an absolute path");
   }
