@@ -68,7 +68,7 @@ DepthSurface::DepthSurface(const Grid& grid, const Pinhole& camera, const DepthO
   halves_ = {{{0, middle, pairs}, {middle, y_.size(), pairs}}};
 }
 
-// A thread for each half: at 640 x 480 pixels this is what takes most of the time from an image to its contacts.
+// Uses a thread for each half, because the points take most of the time from an image to its contacts.
 void DepthSurface::take(const std::vector<float>& depths, const Eigen::Isometry3d& X_FC, double since,
                         const std::vector<SweptVolume>& bodies_F) {
   assert(depths.size() == size_t{grid_.width()} * grid_.height());

@@ -29,16 +29,13 @@ const std::vector<size_t>& GonePixels::find(const SelfPixels& self, const Depths
 // Returns whether any has gone.
 bool GonePixels::findSeeds(const SelfPixels& self, const Depths& depths) {
   bool any_gone = false;
-  for (size_t tile = 0; tile < self.tiles().size(); ++tile) {
-    for (std::uint32_t left = self.tiles()[tile]; left != 0; left &= left - 1) {
-      const auto [u, v] = grid_.pixel(tile, static_cast<std::uint32_t>(__builtin_ctz(left)));
-      const Fate fate = besideSeen(self, depths, {u, v});
-      if (fate == Fate::kOpen) continue;
-      fates_[v * depths.stride + u] = fate;
-      decided_.push_back({u, v});
-      any_gone = any_gone || fate == Fate::kGone;
-    }
-  }
+  self.forEach([&](std::uint32_t u, std::uint32_t v) {
+    const Fate fate = besideSeen(self, depths, {u, v});
+    if (fate == Fate::kOpen) return;
+    fates_[v * depths.stride + u] = fate;
+    decided_.push_back({u, v});
+    any_gone = any_gone || fate == Fate::kGone;
+  });
   return any_gone;
 }
 

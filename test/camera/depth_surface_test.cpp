@@ -386,7 +386,7 @@ TEST_F(DepthSurfaceTest, AnImageAllocatesNoMoreThanItsSecondThread) {
   EXPECT_LT(allocations.largest(), 1000U) << allocations.stacks();
 }
 
-// Half of it may be of another time.
+// Half of the picture may be that of the image before.
 TEST_F(DepthSurfaceTest, WhatAnImageLeftThatRanOutOfMemoryIsForgotten) {
   DepthSurface surface(grid_, kCamera, kExact);
   const auto rests = [&] {
