@@ -162,6 +162,7 @@ std::vector<AllocationsOfAllThreads::Place> AllocationsOfAllThreads::places() co
     }
   }
   std::vector<Place> places;
+  places.reserve(counts.size());
   for (const auto& [place, count] : counts) places.push_back({place.first, place.second, count});
   std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.count > b.count; });
   recording = false;

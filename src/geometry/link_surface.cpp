@@ -66,7 +66,7 @@ ConvexHull hullAround(const ConvexShape& shape) {
   const ConvexHull inner = convexHull(verticesOf(shape.mesh_T()));
   std::vector<Eigen::Vector3d> points;
   for (const Eigen::Vector3d& around : icosahedronAround(lackOf(shape, inner))) {
-    for (const Eigen::Vector3d& corner : inner.corners) points.push_back(corner + around);
+    for (const Eigen::Vector3d& corner : inner.corners) points.emplace_back(corner + around);
   }
   return convexHull(points);
 }

@@ -21,6 +21,7 @@ namespace {
 
 std::vector<std::unique_ptr<GuardedBody>> guarded(std::vector<Tool> bodies, const GuardOptions& options) {
   std::vector<std::unique_ptr<GuardedBody>> all;
+  all.reserve(bodies.size());
   const size_t points = pointsPerBody(bodies.size());
   for (Tool& body : bodies) all.push_back(std::make_unique<GuardedBody>(std::move(body), options, points));
   return all;
@@ -31,7 +32,7 @@ std::vector<std::unique_ptr<GuardedBody>> guarded(std::vector<Tool> bodies, cons
 Guard::Guard(Tool tool, std::unique_ptr<Detector> detector, const GuardOptions& options)
     : Guard(std::vector<Tool>{std::move(tool)}, nullptr, std::move(detector), options) {}
 
-Guard::Guard(std::shared_ptr<const Robot> robot, std::unique_ptr<Detector> detector, const GuardOptions& options)
+Guard::Guard(const std::shared_ptr<const Robot>& robot, std::unique_ptr<Detector> detector, const GuardOptions& options)
     : Guard(robot->tools, robot, std::move(detector), options) {}
 
 Guard::Guard(std::vector<Tool> bodies, std::shared_ptr<const Robot> robot, std::unique_ptr<Detector> detector,

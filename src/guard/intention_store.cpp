@@ -77,8 +77,11 @@ bool sameButForTriangles(const Intention& a, const Intention& b) {
 void addTo(Intentions& all, Intention intention) {
   const auto same = [&](const Intention& other) { return sameButForTriangles(other, intention); };
   const auto known = std::find_if(all.begin(), all.end(), same);
-  Intention& changed = known == all.end() ? all.emplace_back(std::move(intention)) : *known;
-  if (known != all.end()) unite(changed.triangles, intention.triangles);
+  if (known == all.end()) {
+    all.push_back(std::move(intention));
+  } else {
+    unite(known->triangles, intention.triangles);
+  }
   if (all.size() > kMaxIntentions) throw InvalidInput("64 regions are intended already: take some back");
 }
 

@@ -60,7 +60,6 @@ class MeasuredSweeps {
   void forgetContacts();
 
  private:
-  // NOLINTNEXTLINE(bugprone-exception-escape): moving maps of our types does not throw
   struct Swept {
     // Newest last. Older ones stay while later poses may have older stamps: stamps of meshes may run ahead.
     Workpieces deformations;

@@ -13,7 +13,6 @@
 namespace sweep_guard_core {
 
 /// What a sweep leaves for the next one.
-// NOLINTNEXTLINE(bugprone-exception-escape): moving maps of our types does not throw
 struct SweepCache {
   ContactNormals contact_normals = {};  ///< of the triangles in contact
   std::vector<PieceSide> sides = {};    ///< of each piece of the tool; empty: unknown

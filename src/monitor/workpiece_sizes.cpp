@@ -82,6 +82,7 @@ std::vector<std::pair<std::string, std::string>> workpieceSizes(const Workpieces
   std::stable_sort(all.begin(), all.end(), nearer);
   if (all.size() > kMaxShown) all.resize(kMaxShown);
   std::vector<std::pair<std::string, std::string>> nearest;
+  nearest.reserve(all.size());
   for (const Placed& one : all) nearest.emplace_back(one.workpiece->id, sizeInWords(one));
   return nearest;
 }

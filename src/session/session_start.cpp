@@ -32,7 +32,7 @@ class StartReader {
     start.intends = intends_;
     const auto transforms = boost::make_shared<tf2_msgs::TFMessage>();
     for (const auto& [child, transform] : transforms_) transforms->transforms.push_back(transform);
-    if (!transforms_.empty()) start.transforms.push_back(transforms);
+    if (!transforms_.empty()) start.transforms.emplace_back(transforms);
     return start;
   }
 

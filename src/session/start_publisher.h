@@ -1,6 +1,7 @@
 #pragma once
 
 #include <ros/node_handle.h>
+#include <ros/single_subscriber_publisher.h>
 
 #include <set>
 #include <string>

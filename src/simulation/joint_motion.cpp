@@ -102,6 +102,7 @@ Meeting halfway(const sweep_guard_ros::RobotModel& model, const std::vector<Stam
   const sweep_guard_core::Tool& tool = model.robot.tools[body];
   const std::vector<Eigen::Isometry3d> X_TB = posesOf(body, model, motion);
   std::vector<Vector3d> path;
+  path.reserve(X_TB.size());
   for (const Eigen::Isometry3d& pose : X_TB) path.push_back(pose * tool.bounds_T().center());
   const size_t middle = middleOf(path);
   const Vector3d moved = path[middle] - path.front();

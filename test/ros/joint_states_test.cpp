@@ -85,7 +85,7 @@ class JointStatesTest : public testing::Test {
     for (int i = 0; i < 3000; ++i) {
       jointProbe().tick(0.01);
       publish(positions);
-      const Warning warning = jointProbe().awaitWarning([](const Warning&) { return true; });
+      Warning warning = jointProbe().awaitWarning([](const Warning&) { return true; });
       if (fits(warning)) return warning;
     }
     ADD_FAILURE() << "no such warning; the last: " << jointProbe().warnings().back().text;

@@ -126,9 +126,10 @@ class LimitedServicesTest : public testing::Test {
   // Asks eight times at once, and releases the guard when three are answered. Returns how many the text was said to.
   int countOf(const std::string& text, const std::function<std::string()>& ask) {
     std::vector<std::future<std::string>> answers;
+    answers.reserve(kCalls);
     for (int i = 0; i < kCalls; ++i) {
       answers.push_back(std::async(std::launch::async, [&] {
-        const std::string answer = ask();
+        std::string answer = ask();
         ++answered_;
         return answer;
       }));

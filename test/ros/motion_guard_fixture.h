@@ -41,7 +41,7 @@ class Listener {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     while (true) {
       while (!messages_.empty()) {
-        const Msg next = messages_.front();
+        Msg next = messages_.front();
         messages_.pop_front();
         if (fits(next)) return next;
       }

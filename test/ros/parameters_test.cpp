@@ -606,7 +606,7 @@ TEST_F(ParametersTest, MakeThePredictionCoverThePoseTimeout) {
 TEST_F(ParametersTest, AreRefusedByNameValueAndRange) {
   const auto refused = [&](const std::string& key, const auto& value, const std::string& expected) {
     node_.setParam(key, value);
-    const std::string message = refusal(node_);
+    std::string message = refusal(node_);
     EXPECT_TRUE(has(message, "/guarded/" + key));
     EXPECT_TRUE(has(message, expected));
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;

@@ -44,7 +44,7 @@ class PublishersTest : public NodeTest {
       auto pose = poseAt(kAway, probe().time());
       pose.header.frame_id = of_pose;
       probe().publish(pose);
-      const Warning warning = probe().awaitWarning([](const Warning&) { return true; });
+      Warning warning = probe().awaitWarning([](const Warning&) { return true; });
       if (fits(warning)) return warning;
     }
     ADD_FAILURE() << "no such warning; the last: " << probe().warnings().back().text;

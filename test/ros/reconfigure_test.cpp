@@ -516,7 +516,7 @@ TEST_F(ReconfigureTest, AChangeAloneMakesNothingUnknown) {
   }
   const auto warnings = probe().warnings();
   for (size_t i = since; i < warnings.size(); ++i) {
-    EXPECT_EQ(warnings[i].reasons & ~Warning::POSE_STALE, 0U) << warnings[i].text;
+    EXPECT_EQ(warnings[i].reasons & ~std::uint32_t{Warning::POSE_STALE}, 0U) << warnings[i].text;
     EXPECT_TRUE(warnings[i].clear || warnings[i].reasons != 0) << warnings[i].text;
   }
 }

@@ -82,7 +82,7 @@ class RecorderTest : public ::testing::Test {
     const auto deadline = std::chrono::steady_clock::now() + 20s;
     while (std::chrono::steady_clock::now() < deadline) {
       recorder_->tick();
-      const Recorder::Summary summary = recorder_->summary();
+      Recorder::Summary summary = recorder_->summary();
       if (summary.written + summary.failed >= count && !summary.writing) return summary;
       std::this_thread::sleep_for(1ms);  // the recorder tells nobody when a recording is whole
     }

@@ -277,6 +277,7 @@ TEST_F(ServicesTest, FourCallsWaitAndTheOthersAreBusyAtOnce) {
     double took;
   };
   std::vector<std::future<Answer>> answers;
+  answers.reserve(8);
   for (int i = 0; i < 8; ++i) {
     answers.push_back(std::async(std::launch::async, [this, asked = request]() mutable {
       auto client = clientOf<CheckSweep>("check_sweep");
@@ -304,6 +305,7 @@ TEST_F(ServicesTest, ACallIsGivenUpAtTheDeadlineThatBeganWhenItCame) {
   const CheckSweep::Request request = longPath();
   const auto begin = std::chrono::steady_clock::now();
   std::vector<std::future<CheckSweep::Response>> answers;
+  answers.reserve(4);
   for (int i = 0; i < 4; ++i) answers.push_back(std::async(std::launch::async, [&] { return checkSweep(request); }));
   for (auto& answer : answers) EXPECT_TRUE(has(answer.get().message, "not tested within 0.5 s"));
   EXPECT_LT(secondsSince(begin), 2.0 * kDeadline);

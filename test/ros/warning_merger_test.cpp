@@ -6,6 +6,7 @@
 #include <std_msgs/Bool.h>
 
 #include <array>
+#include <initializer_list>
 #include <utility>
 
 #include "child_process.h"
@@ -49,7 +50,8 @@ class WarningMergerNodeTest : public testing::TestWithParam<const char*> {
 
 TEST_P(WarningMergerNodeTest, IsClearOnlyWhileEachGuardIs) {
   await(Warning::CLEAR);
-  for (const std::uint8_t level : {Warning::UNKNOWN, Warning::CONSIDERED, Warning::REFLEX, Warning::CONTACT}) {
+  using Levels = std::initializer_list<std::uint8_t>;
+  for (const std::uint8_t level : Levels{Warning::UNKNOWN, Warning::CONSIDERED, Warning::REFLEX, Warning::CONTACT}) {
     guards_[1].setLevel(level);
     const std::uint32_t reasons = level == Warning::UNKNOWN ? std::uint32_t{Warning::MESH_STALE} : 0U;
     const Warning merged = merged_.await("what /b says", [&](const Warning& warning) {

@@ -50,7 +50,7 @@ class Guard {
   /// Guards the bodies of a robot, whose joints move them: they share detector, time and report. The motion of the joints
   /// is predicted, see MotionPredictor.
   /// @param robot  with at least one body, not null; their pieces are counted through
-  Guard(std::shared_ptr<const Robot> robot, std::unique_ptr<Detector> detector, const GuardOptions& options);
+  Guard(const std::shared_ptr<const Robot>& robot, std::unique_ptr<Detector> detector, const GuardOptions& options);
   ~Guard();
   Guard(const Guard&) = delete;
   Guard& operator=(const Guard&) = delete;

@@ -22,7 +22,7 @@ using Connection = boost::shared_ptr<ros::M_string>;
 
 // rosbag replaces the topic by the name in the bag, and reads the type from here.
 Connection headerOf(const HeardMessage& heard) {
-  const auto header = boost::make_shared<ros::M_string>(heard.connection ? *heard.connection : ros::M_string());
+  auto header = boost::make_shared<ros::M_string>(heard.connection ? *heard.connection : ros::M_string());
   const auto topic = header->find("topic");
   if (topic != header->end()) header->emplace("original_topic", topic->second);
   header->emplace("type", heard.message->getDataType());

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <utility>
 
 #include "common/number_text.h"
 
@@ -41,7 +40,7 @@ std::string quoted(const std::string& text) {
 std::string numberText(double number) {
   if (std::isnan(number)) return ".nan";
   if (std::isinf(number)) return number > 0 ? ".inf" : "-.inf";
-  const std::string text = sweep_guard_core::shortestText(number);
+  std::string text = sweep_guard_core::shortestText(number);
   if (text.find('.') != std::string::npos) return text;
   const std::size_t end = std::min(text.find('e'), text.size());
   return text.substr(0, end) + ".0" + text.substr(end);
@@ -111,7 +110,7 @@ void GuardConfig::refresh() {
     (*parameters)[kRobotDescription] = *description;
     (*parameters)["tool"][kRobotDescription] = kRobotDescription;
   }
-  parameters_ = std::move(*parameters);
+  parameters_ = *parameters;
 }
 
 std::string GuardConfig::yaml() const { return kHead + (parameters_.valid() ? toYaml(parameters_) : "{}\n"); }

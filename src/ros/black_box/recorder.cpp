@@ -35,8 +35,7 @@ void writeConfig(const std::filesystem::path& file, const std::string& text) {
 }  // namespace
 
 Recorder::Recorder(const BlackBoxParameters& parameters)
-    : parameters_(parameters),
-      window_(parameters.window, parameters.memory / 2),
+    : window_(parameters.window, parameters.memory / 2),
       trigger_(parameters.trigger),
       config_(parameters.guard, stopping_),
       folder_({parameters.folder, parameters.quota, parameters.min_free}),
@@ -54,7 +53,7 @@ Recorder::~Recorder() {
 }
 
 void Recorder::hear(const RecordedTopic& topic, const ros::MessageEvent<const topic_tools::ShapeShifter>& event) {
-  const topic_tools::ShapeShifter::ConstPtr message = event.getConstMessage();
+  const topic_tools::ShapeShifter::ConstPtr& message = event.getConstMessage();
   const bool is_warning = topic.recorded == kRecordedWarning;
   std::vector<std::uint8_t> bytes;
   if (is_warning || topic.kept != KeptMessages::kNone) bytes = bytesOf(*message);

@@ -74,7 +74,6 @@ class Recorder {
   void inspectFolder();
   bool attempt(const std::function<void()>& work);
 
-  const BlackBoxParameters& parameters_;
   mutable sweep_guard_core::Mutex mutex_;  // of what follows, up to the recording
   Window window_ GUARDED_BY(mutex_);
   sweep_guard_core::RecordingTrigger trigger_ GUARDED_BY(mutex_);

@@ -75,7 +75,7 @@ class JointPort : public CommandPort {
     read();
     command_.timestamps = timestamps;
     command_.period = cycle.period;
-    const GuardedMotion motion = guard_.guard(known, measured(known), command_, cycle.now);
+    GuardedMotion motion = guard_.guard(known, measured(known), command_, cycle.now);
     if (accepted_ && leavesJointsOut(*accepted_)) publishScaled(*accepted_, 0.0, /*again=*/true);
     accepted_ = newestPtr<Msg>();
     return motion;

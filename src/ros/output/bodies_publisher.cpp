@@ -38,7 +38,7 @@ sweep_guard::BodyMotion predictedMotion(const Eigen::Isometry3d& X_WB, const swe
 }  // namespace
 
 boost::shared_ptr<sweep_guard::ToolSurface> surfaceMsg(const Parameters& parameters) {
-  const auto msg = boost::make_shared<sweep_guard::ToolSurface>();
+  auto msg = boost::make_shared<sweep_guard::ToolSurface>();
   msg->header.frame_id = parameters.tool_frame;
   msg->tool = parameters.tool_frame;
   for (size_t body = 0; body < parameters.bodies->size(); ++body) {

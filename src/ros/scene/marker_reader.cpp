@@ -39,7 +39,7 @@ TriangleSurface unitPrimitive(std::int64_t type) {
 
 Eigen::Vector3d scaleOf(const MessageValue& marker) {
   const MessageValue scale = marker["scale"];
-  const Eigen::Vector3d xyz(scale["x"].number(), scale["y"].number(), scale["z"].number());
+  Eigen::Vector3d xyz(scale["x"].number(), scale["y"].number(), scale["z"].number());
   if (xyz.allFinite() && (xyz.array() != 0.0).all()) return xyz;
   throw InvalidInput("its scale has a component that is 0, NaN or infinite");
 }

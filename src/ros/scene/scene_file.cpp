@@ -91,7 +91,7 @@ TriangleSurface readSphere(const YAML::Node& node, const path& /*folder*/) {
 
 TriangleSurface readFloor(const YAML::Node& node, const path& /*folder*/) {
   TriangleSurface surface = sweep_guard_core::floorPrimitive();
-  const double top = as<double>(node, "the z of its top [m]");
+  const auto top = as<double>(node, "the z of its top [m]");
   for (Eigen::Vector3d& vertex : surface.vertices) vertex.z() += top;
   return surface;
 }

@@ -54,12 +54,14 @@ PlannedPositions plannedBy(const trajectory_msgs::JointTrajectory& trajectory, c
 // In the frame of the tool.
 std::vector<RobotState> statesOf(const std::vector<std::vector<double>>& all, const RobotModel& model) {
   std::vector<RobotState> states;
+  states.reserve(all.size());
   for (const std::vector<double>& positions : all) states.push_back({model.X_TR, positions});
   return states;
 }
 
 std::vector<Eigen::Isometry3d> moved(const Eigen::Isometry3d& X_MT, const std::vector<Eigen::Isometry3d>& X_TB) {
   std::vector<Eigen::Isometry3d> X_MB;
+  X_MB.reserve(X_TB.size());
   for (const Eigen::Isometry3d& X : X_TB) X_MB.push_back(X_MT * X);
   return X_MB;
 }
@@ -127,6 +129,7 @@ Eigen::Isometry3d toolPoseIn(const PathTests& tests, const std::string& mesh_fra
 
 std::vector<std::string> namesInModel(const std::vector<std::string>& joints, const Parameters& parameters) {
   std::vector<std::string> names;
+  names.reserve(joints.size());
   for (const std::string& joint : joints) names.push_back(nameInModel(joint, parameters));
   return names;
 }

@@ -97,6 +97,7 @@ void IntendService::refuseUpdate(const std::string& reason) {
 void IntendService::set(const std::vector<sweep_guard::Intend>& intends) {
   if (intends.size() > sweep_guard_core::kMaxIntentions) throw InvalidInput("send at most 64 regions at once");
   std::vector<sweep_guard_core::IntentionRequest> requests;
+  requests.reserve(intends.size());
   for (const sweep_guard::Intend& intend : intends) requests.push_back(requestFrom(intend));
   intentions_.set(requests, std::chrono::steady_clock::now());
 }
@@ -120,7 +121,7 @@ sweep_guard_core::IntentionRequest IntendService::requestFrom(const sweep_guard:
 }
 
 Eigen::Vector3d IntendService::centerOf(const sweep_guard::Intend& intend) const {
-  const Eigen::Vector3d center(intend.center.x, intend.center.y, intend.center.z);
+  Eigen::Vector3d center(intend.center.x, intend.center.y, intend.center.z);
   const auto workpieces = dependencies_.workpieces.snapshot();
   const auto same = [&](const auto& workpiece) { return workpiece->id == intend.mesh_id; };
   const auto workpiece = std::find_if(workpieces.begin(), workpieces.end(), same);

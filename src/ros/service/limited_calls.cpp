@@ -9,7 +9,7 @@ namespace sweep_guard_ros {
 // Counts as inside until it has run or is dropped.
 class LimitedCalls::CountedCall : public ros::CallbackInterface {
  public:
-  CountedCall(ros::CallbackInterfacePtr call, std::shared_ptr<State> state)
+  CountedCall(ros::CallbackInterfacePtr call, const std::shared_ptr<State>& state)
       : call_(std::move(call)), inside_(state.get(), [state](State* entered) { --entered->inside; }) {}
 
   CallResult call() override {

@@ -22,6 +22,7 @@ constexpr int kPipeSize = 4096;  // [bytes] the smallest that Linux has
 pid_t run(const std::vector<std::string>& command, int standard_input) {
   std::vector<std::string> words = command;
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;

@@ -256,6 +256,7 @@ RobotTree treeOf(const RobotDescription& robot, const urdf::Link& frame, const s
   forgetShared(paths);
   TreeBuilder builder(robot);
   std::vector<size_t> ends;
+  ends.reserve(paths.size());
   for (const Joints& path : paths) ends.push_back(builder.add(path));
   KinematicTree tree = builder.tree();
   JointsBesideTree beside = jointsBeside(robot, frame, tree);
