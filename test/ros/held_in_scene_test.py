@@ -20,8 +20,8 @@ class HeldInSceneTest(SceneTest):
     def setUp(self):
         self.changed = threading.Condition()
         self.level = self.links = None
-        for subscriber in (rospy.Subscriber('/sweep_guard/warning', Warning, self.hear_warning),
-                           rospy.Subscriber('/sweep_guard/tool', ToolShape, self.hear_tool)):
+        for subscriber in (rospy.Subscriber('/arm_guard/warning', Warning, self.hear_warning),
+                           rospy.Subscriber('/arm_guard/tool', ToolShape, self.hear_tool)):
             self.addCleanup(subscriber.unregister)
         publish_tool_pose(self, z=1.0, rate=50)
 
