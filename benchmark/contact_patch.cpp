@@ -43,6 +43,7 @@ struct Presser {
 ConvexShape polytope() {
   Random random(/*seed=*/5);
   std::vector<Eigen::Vector3d> points;
+  points.reserve(60);
   for (int i = 0; i < 60; ++i)
     points.emplace_back(Eigen::Vector3d(0.0168, 0.0168, 0.03).cwiseProduct(random.direction()));
   return ConvexShape::hull(points);
@@ -88,7 +89,7 @@ class PatchTimes {
 
   // Returns what the sweep leaves for the next one.
   SweepCache measure(Sweep sweep) {
-    const SweepCache after = sweepCache(check(*halfspace_, sweep));
+    SweepCache after = sweepCache(check(*halfspace_, sweep));
     named_.triangles = result_->triangles;
     contacts_.push_back(static_cast<double>(after.contact_normals.size()));
     for (int i = 0; i < kRepetitions; ++i) {

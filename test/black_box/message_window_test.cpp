@@ -87,7 +87,7 @@ TEST_F(MessageWindowTest, TimesOfASnapshotIncreaseAlsoWhereTheClockStandsStillOr
 }
 
 TEST_F(MessageWindowTest, NeverTakesMoreThanItsSize) {
-  for (int i = 0; i < 1000; ++i) {
+  for (unsigned i = 0; i < 1000; ++i) {
     hear(std::chrono::milliseconds(i), std::to_string(i), i % 3 == 0 ? "key " + std::to_string(i % 7) : "", 1 + i % 60);
     ASSERT_LE(window_.size(), 100U);
   }

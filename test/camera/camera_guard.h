@@ -46,8 +46,8 @@ class CameraGuard {
   /// Of all images, see DepthSurface::compare().
   const DepthSurface::Expected& compared() const { return compared_; }
   /// Images in which points of the tool were to be seen, and of these, how many show at least half.
-  size_t compared_images() const { return compared_images_; }
-  size_t agreeing_images() const { return agreeing_images_; }
+  size_t comparedImages() const { return compared_images_; }
+  size_t agreeingImages() const { return agreeing_images_; }
 
  private:
   void take(double seconds, const std::vector<float>& depths);

@@ -207,7 +207,7 @@ TEST_F(DepthMotionTest, ACameraThatMovesForgetsWhatTheRobotHides) {
 std::vector<Eigen::Vector3d> pointsOf(PointKind kind, const std::vector<PicturePoint>& points) {
   std::vector<Eigen::Vector3d> found;
   for (const PicturePoint& point : points) {
-    if (point.kind == kind) found.push_back(point.p_F.cast<double>());
+    if (point.kind == kind) found.emplace_back(point.p_F.cast<double>());
   }
   return found;
 }

@@ -84,8 +84,8 @@ TEST_F(RenderedSceneTest, TheToolIsNoContactWithItselfThoughTheCameraIsMisplaced
   misplaced_setup.X_WC = misplaced(X_WC_, 106);
   run(wanderingTime(), misplaced_setup, wandering);
   EXPECT_EQ(contacts_, std::vector<double>());
-  EXPECT_EQ(guard_->agreeing_images(), guard_->compared_images());
-  EXPECT_GT(guard_->compared_images(), 50U);
+  EXPECT_EQ(guard_->agreeingImages(), guard_->comparedImages());
+  EXPECT_GT(guard_->comparedImages(), 50U);
 }
 
 TEST_F(RenderedSceneTest, TheToolIsNoContactWithItselfThoughTheMarginIsLargerThanThePadding) {

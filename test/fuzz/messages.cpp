@@ -122,7 +122,7 @@ class World {
     params.buffer = bytes.data();
     params.length = static_cast<std::uint32_t>(bytes.size());
     params.connection_header = connectionFrom("/sender");
-    const auto msg = boost::static_pointer_cast<const Msg>(subscription.deserialize(params));
+    auto msg = boost::static_pointer_cast<const Msg>(subscription.deserialize(params));
     require(msg == nullptr || bytesOf(*msg) == sent, "a message that is read has all its bytes, and no others");
     return msg;
   }

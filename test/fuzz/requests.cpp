@@ -388,7 +388,7 @@ class World {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, size_t size) {
   sweep_guard_fuzz::startRoscpp();
-  static sweep_guard_fuzz::World* const world = new sweep_guard_fuzz::World;  // its threads end with the process
+  static auto* const world = new sweep_guard_fuzz::World;  // its threads end with the process
   sweep_guard_fuzz::Input input(bytes, size);
   world->call(input);
   world->forget();

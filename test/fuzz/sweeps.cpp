@@ -222,7 +222,7 @@ class Scene {
       for (size_t k = 0; k < vertices_.size(); ++k) {
         const Vector3r first = meshes_[before].vertices[k].cast<Real>();
         const Vector3r last = meshes_[moves ? before + 1 : before].vertices[k].cast<Real>();
-        corners_M.push_back(first + static_cast<Real>(i) / 2 * (last - first));
+        corners_M.emplace_back(first + static_cast<Real>(i) / 2 * (last - first));
       }
       visit(corners_M);
     }
@@ -250,7 +250,7 @@ class Scene {
     if (prediction_.objects.empty()) return;
     const sweep_guard_core::PredictedObject& object = prediction_.objects[0];
     std::vector<Vector3r> corners_M;
-    for (const Eigen::Vector3d& vertex : vertices_) corners_M.push_back(vertex.cast<Real>());
+    for (const Eigen::Vector3d& vertex : vertices_) corners_M.emplace_back(vertex.cast<Real>());
     for (const sweep_guard_core::PredictedPose& pose : prediction_.path) {
       const Eigen::Isometry3d X_MT = frame_.inverse() * pose.X_WT;
       const Matrix3r R_TM = X_MT.linear().transpose().cast<Real>();

@@ -114,7 +114,7 @@ TEST(ConvexShapeTest, AcceptsFlatAndNeedleTools) {
 
 std::vector<ConvexShape> shapesOfEachKind(Random& random) {
   std::vector<Eigen::Vector3d> cloud;
-  for (int i = 0; i < 30; ++i) cloud.push_back(random.uniform(0.5, 1.0) * random.direction());
+  for (int i = 0; i < 30; ++i) cloud.emplace_back(random.uniform(0.5, 1.0) * random.direction());
   std::vector<ConvexShape> shapes = {ConvexShape::cylinder(0.5, 2.0), ConvexShape::sphere(0.7),
                                      ConvexShape::box({0.3, 0.5, 0.8}), ConvexShape::hull(cloud),
                                      ConvexShape::hull({{-0.5, 0.1, 0}, {0.6, 0, 0}}).padded(0.3)};

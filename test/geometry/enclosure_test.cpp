@@ -165,7 +165,7 @@ TEST(EnclosureTest, LeavesOutFinsAndPlatesInside) {
   SentSurface with_plate = cube;
   with_plate.add(plate(0.5, 2));  // its border lies on edges of the cube
   SentSurface with_fin = cube;
-  with_fin.vertices.push_back({0.0, 0.0, 2.0});
+  with_fin.vertices.emplace_back(0.0, 0.0, 2.0);
   with_fin.triangles.push_back({0, 1, static_cast<std::uint32_t>(with_fin.vertices.size() - 1)});
   SentSurface glued = cube.movedBy(-0.5, 0.0, 0.0);
   glued.add(cube.movedBy(0.5, 0.0, 0.0));

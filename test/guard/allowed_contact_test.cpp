@@ -31,7 +31,7 @@ TriangleMesh cube(const Vector3d& center, double half) {
   std::vector<Vector3d> vertices;
   for (const double x : {-half, half}) {
     for (const double y : {-half, half}) {
-      for (const double z : {-half, half}) vertices.push_back(center + Vector3d(x, y, z));
+      for (const double z : {-half, half}) vertices.emplace_back(center + Vector3d(x, y, z));
     }
   }
   return TriangleMesh(vertices, {{0, 1, 3},

@@ -36,7 +36,7 @@ class FrameJumpsTest : public testing::Test {
     return jumpsTo(poseAt(seconds, tool, tray));
   }
 
-  const std::set<std::string> none_;
+  const std::set<std::string> none_ = {};
   const Workpieces workpieces_ = {farTriangleIn("world"), farTriangleIn("tray")};
   FakeDetector::Record record_;
   Guard guard_{Tool::cylinder(0.005, 0.1), std::make_unique<FakeDetector>(record_), {}};

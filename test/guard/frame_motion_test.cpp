@@ -276,7 +276,7 @@ TEST_F(FrameMotionStoreTest, MarksWhereItLeavesOutPoses) {
 class FramePlacedAnewTest : public FrameMotionStoreTest {
  protected:
   FramePlacedAnewTest() { store_.add("tray", {pose(0), pose(20), pose(40)}); }
-  void place(std::vector<int> stamps) {
+  void place(const std::vector<int>& stamps) {
     std::vector<FramePose> placed;
     for (const int ms : stamps) placed.push_back({Time(std::chrono::milliseconds(ms)), along(1000 + ms)});
     store_.placeAnew("tray", placed);

@@ -34,7 +34,7 @@ ConvexShape randomPresser(Random& random) {
     case 1:
       return ConvexShape::box({random.uniform(0.1, 0.5), random.uniform(0.1, 0.5), random.uniform(0.1, 0.5)});
     case 2:
-      for (int i = 0; i < 25; ++i) cloud.push_back(random.uniform(0.3, 0.5) * random.direction());
+      for (int i = 0; i < 25; ++i) cloud.emplace_back(random.uniform(0.3, 0.5) * random.direction());
       return ConvexShape::hull(cloud);
     case 3:
       return ConvexShape::hull({{-0.3, 0, 0}, {0.3, 0, 0}}).padded(random.uniform(0.05, 0.3));

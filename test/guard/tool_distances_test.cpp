@@ -117,7 +117,7 @@ TEST_F(ToolDistancesTest, ThereIsNoneWhileTheFrameIsNotKnown) {
     EXPECT_NEAR(now(), 1.0, 1e-6) << "it is known again";
     EXPECT_NEAR(least(), 0.2, 1e-6);
   }
-  measure(ms += 20, {0.0, 0.0, 1.05}, {slabNamed("slab", "nowhere", 1000.0)});
+  measure(ms + 20, {0.0, 0.0, 1.05}, {slabNamed("slab", "nowhere", 1000.0)});
   EXPECT_FALSE(distances_.get().at("slab").least) << "of the other unit nothing is known";
 }
 

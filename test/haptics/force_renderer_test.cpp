@@ -49,7 +49,7 @@ class ForceRendererTest : public testing::Test {
     }
     inputs_.known.tool = std::make_shared<ToolBalls>(tool_);
     if (!renderer_) renderer_.emplace(options_);
-    const RenderedForce rendered = renderer_->render(inputs_, sent_, now());
+    RenderedForce rendered = renderer_->render(inputs_, sent_, now());
     sent_ = rendered.wrench;
     return rendered;
   }

@@ -189,7 +189,7 @@ TEST(InterpenetrationTest, IsContinuousInThePose) {
     InterpenetrationFinder finder(shape_T);
     for (int path = 0; path < 20; ++path) {
       const Isometry3d X_MT = poseInOrgan(random);
-      const size_t vertex = static_cast<size_t>(random.below(static_cast<int>(mesh.vertexCount())));
+      const auto vertex = static_cast<size_t>(random.below(static_cast<int>(mesh.vertexCount())));
       const Vector3d from = mesh.vertex(vertex);
       const Vector3d to = mesh.vertex((vertex + 1) % mesh.vertexCount());
       const auto largestJump = [&](int steps) {

@@ -48,7 +48,7 @@ constexpr char kFingerMesh[] = "urdf/franka_description/meshes/visual/finger.dae
 inline VolumePiece fingerPiece(double scale) {
   std::vector<Eigen::Vector3d> points;
   for (const Eigen::Vector3d& p : sweep_guard_ros::readMesh(dataPath(kFingerMesh)).vertices)
-    points.push_back(scale * p);
+    points.emplace_back(scale * p);
   const ConvexShape shape_T = ConvexShape::hull(points);
   std::vector<Eigen::Vector3d> corners_T;
   for (size_t i = 0; i < shape_T.mesh_T().vertexCount(); ++i) corners_T.push_back(shape_T.mesh_T().vertex(i));

@@ -85,7 +85,7 @@ TEST(SampledTest, HasEachPointAndNoStepAbove20Milliseconds) {
   const std::vector<double> of_points = {0.0, 1.0, 2.0, 3.0};
   size_t found = 0;
   for (size_t i = 0; i < samples.times.size(); ++i) {
-    found += std::count(of_points.begin(), of_points.end(), samples.positions[i][0]);
+    found += static_cast<size_t>(std::count(of_points.begin(), of_points.end(), samples.positions[i][0]));
     const Duration step = i == 0 ? kTrajectoryStep : samples.times[i] - samples.times[i - 1];
     EXPECT_LE(step, kTrajectoryStep);
     EXPECT_GT(step, Duration::zero());

@@ -51,7 +51,7 @@ TEST(RobotMotionTest, NoPointOfABodyDeviatesByMoreThanTheBound) {
     const RobotMotion motion(tree, bodies, from, to);
     const size_t parts = 1 + static_cast<size_t>(random.below(4));
     const auto count = static_cast<double>(parts);
-    const size_t body = static_cast<size_t>(random.below(static_cast<int>(bodies.size())));
+    const auto body = static_cast<size_t>(random.below(static_cast<int>(bodies.size())));
     const Eigen::Vector3d p_B = bodies[body].radius * random.direction();
     for (size_t part = 0; part < parts; ++part) {
       const double deviation = sampledDeviation(tree, bodies, motion, body, p_B, static_cast<double>(part) / count,

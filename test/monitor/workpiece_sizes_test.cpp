@@ -32,7 +32,7 @@ TEST(WorkpieceSizesTest, WhereAFrameIsLostNoOldDistanceIsGiven) {
   ASSERT_EQ(sizes.size(), 4U);
   EXPECT_EQ(sizes[0].first, "bed");
   EXPECT_EQ(sizes[1].second, "0.1 x 0.2 x 0.05 m, distance from the tool not known, nearest so far 0.05 m");
-  for (const size_t i : {2, 3}) EXPECT_EQ(sizes[i].second, "0.1 x 0.2 x 0.05 m, distance from the tool not known");
+  for (const size_t i : {2U, 3U}) EXPECT_EQ(sizes[i].second, "0.1 x 0.2 x 0.05 m, distance from the tool not known");
   EXPECT_EQ(doubtfulSizes(workpieces, distances), "");
 }
 

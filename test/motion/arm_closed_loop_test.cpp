@@ -217,7 +217,7 @@ void retreatFrom(const ArmLoop& held, const std::vector<VectorXd>& came, Random&
   retreat(held, speedUp(awayFrom(held.scene(), held.positions())), figures);
   std::vector<VectorXd> back;
   for (auto velocity = came.rbegin(); velocity != came.rend() && back.size() < 50; ++velocity)
-    back.push_back(-*velocity);
+    back.emplace_back(-*velocity);
   retreat(held, back, figures);
   for (int tries = 0, found = 0; tries < 300 && found < 4; ++tries) {
     const VectorXd velocities = velocitiesOf(*held.scene().arm().tree, random, 0.5);

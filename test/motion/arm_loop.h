@@ -125,6 +125,7 @@ class ArmLoop {
   }
   ArmLoop(const ArmLoop& other) : robot_(other.scene_->arm().tree) { *this = other; }
   ArmLoop& operator=(const ArmLoop& other) {
+    if (this == &other) return *this;
     scene_ = other.scene_;
     state_ = other.state_;
     velocity_ = other.velocity_;
@@ -155,7 +156,7 @@ class ArmLoop {
     Cycle cycle{1.0, std::numeric_limits<double>::infinity()};
     if (guard_) cycle.scale = guarded(command);
     for (int step = 0; step < kPeriodMs; ++step) {
-      sent_.push_back(cycle.scale * command);
+      sent_.emplace_back(cycle.scale * command);
       followed_ += (sent_.front() - followed_) / 30.0;
       sent_.pop_front();
       velocity_ = changed(robot_, state_, *scene_->balls(), options().deceleration, velocity_, followed_);
@@ -175,7 +176,7 @@ class ArmLoop {
 
  private:
   void measure() {
-    measured_.push_back({state_, scene_->planesAt(state_.positions, ms_)});
+    measured_.emplace_back(state_, scene_->planesAt(state_.positions, ms_));
     if (measured_.size() > 3) measured_.pop_front();
   }
   double guarded(const Eigen::VectorXd& command) {

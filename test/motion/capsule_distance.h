@@ -50,7 +50,7 @@ inline void takeSegments(const Capsule& segment, const Eigen::Vector3d& a, const
 }
 
 inline void takeTriangle(const Capsule& segment, const std::array<Eigen::Vector3d, 3>& corners, NearestPair& nearest) {
-  const auto& [a, b, c] = corners;
+  const Eigen::Vector3d &a = corners[0], &b = corners[1], &c = corners[2];
   const Eigen::Vector3d normal = (b - a).cross(c - a).normalized();
   const auto inside = [&](const Eigen::Vector3d& p) {
     return normal.dot((b - a).cross(p - a)) >= 0.0 && normal.dot((c - b).cross(p - b)) >= 0.0 &&

@@ -43,7 +43,7 @@ inline PoseWithFrames poseAt(const Isometry3d& X_WT, Time stamp = Time(100s),
 
 inline Tool toolOfAllShapes(Random& random) {
   std::vector<Vector3d> points;
-  for (int i = 0; i < 12; ++i) points.push_back(0.02 * random.direction());
+  for (int i = 0; i < 12; ++i) points.emplace_back(0.02 * random.direction());
   const auto placed = [&](const ConvexShape& shape) {
     return ConvexPiece{"link", shape.placed(random.pose(random.inBox({0.04, 0.04, 0.04})))};
   };
@@ -61,7 +61,7 @@ inline TriangleMesh randomMesh(Random& random) {
   for (int i = 0; i < count; ++i) {
     const Vector3d place = random.uniform(0.0, 0.2) * random.direction();
     const auto first = static_cast<std::uint32_t>(vertices.size());
-    for (int corner = 0; corner < 3; ++corner) vertices.push_back(place + size * random.direction());
+    for (int corner = 0; corner < 3; ++corner) vertices.emplace_back(place + size * random.direction());
     triangles.push_back({first, first + 1, first + 2});
   }
   return TriangleMesh(vertices, triangles);

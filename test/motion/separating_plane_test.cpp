@@ -25,7 +25,7 @@ Eigen::Isometry3d poseOf(RandomScenes& random) {
 TEST(EnclosingBallsTest, ContainTheBodyAndLittleMore) {
   RandomScenes random(1);
   std::vector<Vector3d> points;
-  for (int i = 0; i < 30; ++i) points.push_back(random.uniform(0.0, 0.1) * random.direction());
+  for (int i = 0; i < 30; ++i) points.emplace_back(random.uniform(0.0, 0.1) * random.direction());
   for (const ConvexShape& shape : {ConvexShape::cylinder(0.02, 0.1), ConvexShape::sphere(0.03),
                                    ConvexShape::box({0.01, 0.02, 0.03}), ConvexShape::hull(points)}) {
     const ConvexShape placed = shape.padded(0.003).placed(poseOf(random));

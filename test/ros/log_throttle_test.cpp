@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 class LoggedLines : public ros::console::LogAppender {
  public:
   static std::vector<std::string>& ofThisTest() {
-    static LoggedLines* const logged = new LoggedLines();
+    static auto* const logged = new LoggedLines();
     return logged->lines_;
   }
 

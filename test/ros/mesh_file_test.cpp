@@ -178,7 +178,7 @@ TEST_F(MeshFileTest, ReadsAnStlAsProgramsWriteIt) {
   };
   for (const auto& [what, bytes] : cases) {
     SCOPED_TRACE(what);
-    EXPECT_EQ(refusal([&] { expectUnitTetrahedron(readMesh(folder_.write("t.stl", bytes))); }), "");
+    EXPECT_EQ(refusal([&, &stl = bytes] { expectUnitTetrahedron(readMesh(folder_.write("t.stl", stl))); }), "");
   }
 }
 

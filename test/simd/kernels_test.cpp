@@ -293,11 +293,10 @@ TEST_P(KernelsTest, FindsTrianglesWhollyBeyondAPlaneAndWithACornerInside) {
 TEST_P(KernelsTest, FindsTheLargestOfManyLinearFunctions) {
   Random random(7);
   for (const size_t count : {8U, 16U, 24U, 200U}) {
-    std::vector<double> values[4];
-    for (auto& of_all : values) {
-      for (size_t i = 0; i < count; ++i) of_all.push_back(random.uniform(-1.0, 1.0));
+    std::vector<double> x(count), y(count), z(count), w(count);
+    for (auto* const values : {&x, &y, &z, &w}) {
+      for (double& value : *values) value = random.uniform(-1.0, 1.0);
     }
-    const auto& [x, y, z, w] = values;
     for (int trial = 0; trial < 200; ++trial) {
       const std::array<double, 3> p = {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
       const size_t found = GetParam().largest({x.data(), y.data(), z.data(), w.data(), count}, p);

@@ -198,7 +198,7 @@ class CameraSession {
     std::vector<Time>& stamps = path_.stamps;
     stamps = {first, std::max(last, first + fromSeconds(0.001))};
     for (int count = random_.below(9); count > 0; --count) {
-      const size_t image = static_cast<size_t>(random_.below(static_cast<int>(images_.size())));
+      const auto image = static_cast<size_t>(random_.below(static_cast<int>(images_.size())));
       const Time stamp = randomTime(random_, stamps[0], stamps[1]);
       stamps.push_back(random_.chance(0.15) ? std::max(stamps[0], images_[image].stamp) : stamp);
     }

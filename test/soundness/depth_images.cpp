@@ -119,7 +119,7 @@ struct Errors {
 
   float seen(Random& random, Real depth) const {
     if (depth == kNone || random.chance(0.05)) return std::numeric_limits<float>::quiet_NaN();
-    double z = static_cast<double>(depth);
+    auto z = static_cast<double>(depth);
     z += noise * z * z * (random.uniform(-1.0, 1.0) + random.uniform(-1.0, 1.0));
     if (steps > 0.0 && random.chance(steps)) z += random.uniform(-0.3, 0.3);
     if (unit > 0.0) z = unit * std::round(z / unit);

@@ -104,7 +104,7 @@ const char* addFlaw(Random& random, Solid& solid) {
         surface.triangles[static_cast<size_t>(random.below(static_cast<int>(surface.triangles.size())))];
     const auto tip = static_cast<std::uint32_t>(surface.vertices.size());
     const Triangle fin = {at[0], at[1], tip};
-    surface.vertices.push_back(surface.vertices[at[0]] + random.logUniform(0.01, 3.0) * random.direction());
+    surface.vertices.emplace_back(surface.vertices[at[0]] + random.logUniform(0.01, 3.0) * random.direction());
     surface.triangles.push_back(fin);
     return " with a fin";
   }

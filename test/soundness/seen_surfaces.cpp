@@ -50,8 +50,8 @@ SeenSurfaces::SeenSurfaces(const DepthImages& images) : images_(images) {
         seen.limits.push_back(10 * diagonal * z + 2 * margin(images, z));
         seen.lengths.push_back(ray.norm());
         seen.depths.push_back(counts ? z : std::numeric_limits<Real>::quiet_NaN());
-        seen.places_F.push_back(image.X_FC.linear().cast<Real>() * (from_camera * ray.normalized()) +
-                                image.X_FC.translation().cast<Real>());
+        seen.places_F.emplace_back(image.X_FC.linear().cast<Real>() * (from_camera * ray.normalized()) +
+                                   image.X_FC.translation().cast<Real>());
       }
     }
     if (i > 0) {
