@@ -150,9 +150,8 @@ TEST_F(JointPlanTest, AllObjectionsAreInOneAnswer) {
                                       {{0.0, 3.5, 0.0, 0.5, 0.0, 0.0, 3.5}, {0.0, 3.5, 0.0, 0.5, 1.0, 0.0, 3.5}, {}});
   for (const char* const part :
        {"joint_names has 'wrist' twice",
-        ("the robot description has no joint 'sholder', 'knee': leave it out, or correct its name; the tool's links "
-         "are "
-         "moved by wrist, finger1, drill"),
+        ("the robot description has no joint 'sholder', 'knee': leave it out, or correct its name; "
+         "the tool's links are moved by wrist, finger1, drill"),
         "point 2 has 0 positions", "joint 'wrist' is at 3.5", "joint 'finger1' is at 0.5 in point 0",
         "joint 'torso' is at 1", "joint 'finger2' is at 0 in point 0"}) {
     EXPECT_TRUE(has(message, part));
