@@ -20,7 +20,7 @@ void readWorkpieces(ParameterReader& read, Parameters& parameters) {
                         {{"open"},
                          {"padding", ParameterRange{0.0, 1.0, "m"}},
                          {"timeout", ParameterRange{0.01, sweep_guard_core::kInfinity, "s"}}},
-                        "Rules by id, `'*'` for all others: `{curtain: {open: true}, '*': {timeout: 0.2}}`. open: the "
+                        "Rules by id, `'*'` for all others: `{curtain: {open: true}, '*': {timeout: 1.0}}`. open: the "
                         "surface has no inside. padding: it counts as nearer by this; the depth of "
                         "an intention counts from there. timeout: replaces timing/mesh_timeout.");
   for (const auto& [id, rule] : rules) {
