@@ -13,6 +13,7 @@ import pathlib
 import re
 import sys
 
+tests = pathlib.Path(__file__).resolve().parents[1] / "test"
 build, output = map(pathlib.Path, sys.argv[1:])
 (output / "test").mkdir(parents=True, exist_ok=True)
 commands = {command["file"]: command for command in json.loads((build / "compile_commands.json").read_text())}
@@ -21,7 +22,7 @@ for index, (source, command) in enumerate(commands.items()):
     included = re.findall(r'^#include "(.*\.cpp)"$', text, re.MULTILINE)
     print(*(included or [source]), sep="\n")
     if included:
-        unified = output / (f"test/{index}.cxx" if "/test/" in included[0] else f"UnifiedSource{index}.cxx")
+        unified = output / (f"test/{index}.cxx" if tests in pathlib.Path(included[0]).parents else f"UnifiedSource{index}.cxx")
         unified.write_text(text)
         command["file"] = str(unified)
         command["command"] = command["command"].replace(source, str(unified))
