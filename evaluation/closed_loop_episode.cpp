@@ -1,6 +1,7 @@
 #include "evaluation/closed_loop_episode.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace sweep_guard_evaluation {
 
@@ -20,7 +21,13 @@ constexpr sweep_guard_core::Duration kAfterPlacement = std::chrono::seconds(2);
 constexpr double kMinApproach = 0.05;  // [m/s] of a surface
 constexpr double kMaxApproach = 0.3;   // [m/s]
 
-bool areSame(const Twist& a, const Twist& b) { return a.v_W == b.v_W && a.w_W == b.w_W; }
+bool areSame(const Twist& a, const Twist& b) {
+  const auto same = [](const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
+    // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): bit for bit
+    return std::memcmp(x.data(), y.data(), sizeof(double) * 3) == 0;
+  };
+  return same(a.v_W, b.v_W) && same(a.w_W, b.w_W);
+}
 
 double keptShareOf(const Twist& output_W, const Twist& command_W, double radius) {
   const double speed = fastestPoint(command_W, radius);
