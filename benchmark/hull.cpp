@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "common/rotation_between.h"
+
 namespace sweep_guard_benchmark {
 namespace {
 
@@ -58,7 +60,7 @@ sweep_guard_core::Motion Hull::drilling(sweep_guard_core::Random& random, double
   const Eigen::Vector3d beside = outwards.cross(random.direction()).normalized();
   const Eigen::Vector3d axis = -(std::cos(kTilt) * outwards + std::sin(kTilt) * beside);
   sweep_guard_core::Motion motion;
-  motion.X_MT_start.linear() = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis).toRotationMatrix();
+  motion.X_MT_start.linear() = sweep_guard_core::rotationBetween(Eigen::Vector3d::UnitZ(), axis).toRotationMatrix();
   motion.X_MT_start.translation() = p - depth * outwards;
   motion.X_MT_end.linear() = random.turn(angle) * motion.X_MT_start.linear();
   motion.X_MT_end.translation() = motion.X_MT_start.translation() + length * random.direction();

@@ -3,6 +3,7 @@
 //   interaction [--csv FILE]
 #include <cstdio>
 
+#include "common/rotation_between.h"
 #include "common/run_program.h"
 #include "machine.h"
 #include "microseconds.h"
@@ -25,8 +26,7 @@ constexpr double kRadius = 0.1;  // about that of the mesh [m]
 Eigen::Isometry3d poseInside(Random& random) {
   const Eigen::Vector3d out = random.direction();
   Eigen::Isometry3d X_MT = Eigen::Isometry3d::Identity();
-  X_MT.linear() =
-      random.turn(0.3) * Eigen::Quaterniond::FromTwoVectors(-Eigen::Vector3d::UnitZ(), out).toRotationMatrix();
+  X_MT.linear() = random.turn(0.3) * rotationBetween(-Eigen::Vector3d::UnitZ(), out).toRotationMatrix();
   X_MT.translation() = (kRadius - random.uniform(0.02, 0.03)) * out;
   return X_MT;
 }

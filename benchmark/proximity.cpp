@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <ctime>
 
+#include "common/rotation_between.h"
 #include "common/run_program.h"
 #include "drill.h"
 #include "machine.h"
@@ -46,8 +47,7 @@ Workpieces deformations(int rings) {
 PoseWithFrames poseAbove(double height, Random& random) {
   const Eigen::Vector3d out = random.direction();
   PoseWithFrames pose{Time(100s), {}, Eigen::Isometry3d::Identity(), {{kFrame, Eigen::Isometry3d::Identity()}}};
-  pose.X_WT.linear() =
-      random.turn(0.3) * Eigen::Quaterniond::FromTwoVectors(-Eigen::Vector3d::UnitZ(), out).toRotationMatrix();
+  pose.X_WT.linear() = random.turn(0.3) * rotationBetween(-Eigen::Vector3d::UnitZ(), out).toRotationMatrix();
   pose.X_WT.translation() = (kRadius + height) * out;
   pose.bodies = {{pose.X_WT}};
   return pose;

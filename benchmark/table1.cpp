@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/rotation_between.h"
 #include "common/run_program.h"
 #include "drill.h"
 #include "microseconds.h"
@@ -31,7 +32,7 @@ Motion drilling(Random& random) {
   const Motion step = handMotion(random);
   const Eigen::Matrix3d turn = step.X_MT_end.linear() * step.X_MT_start.linear().transpose();
   Motion motion;
-  motion.X_MT_start.linear() = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis).toRotationMatrix();
+  motion.X_MT_start.linear() = rotationBetween(Eigen::Vector3d::UnitZ(), axis).toRotationMatrix();
   motion.X_MT_start.translation() = random.uniform(0.095, 0.12) * outwards;
   motion.X_MT_end.linear() = turn * motion.X_MT_start.linear();
   motion.X_MT_end.translation() = motion.X_MT_start.translation() + step.X_MT_end.translation();

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "common/rotation_between.h"
 #include "common/run_program.h"
 #include "microseconds.h"
 #include "scenes.h"
@@ -119,7 +120,7 @@ Motion restCloseTo(const TriangleMesh& tool_T, const TriangleMesh& mesh_M, Rando
   Motion motion;
   motion.X_MT_start.linear() =
       Eigen::AngleAxisd(random.uniform(0.0, 360.0 * kDegree), on_mesh.normal).toRotationMatrix() *
-      Eigen::Quaterniond::FromTwoVectors(on_tool.normal, -on_mesh.normal).toRotationMatrix();
+      rotationBetween(on_tool.normal, -on_mesh.normal).toRotationMatrix();
   motion.X_MT_start.translation() =
       on_mesh.p + random.logUniform(0.0002, 0.005) * on_mesh.normal - motion.X_MT_start.linear() * on_tool.p;
   motion.X_MT_end = motion.X_MT_start;

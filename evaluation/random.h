@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <random>
 
+#include "common/rotation_between.h"
+
 namespace sweep_guard_evaluation {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -31,7 +33,7 @@ class Random {
   /// Returns a rotation that takes z to `z_W`, with a random angle about it.
   Eigen::Matrix3d frameWithZ(const Eigen::Vector3d& z_W) {
     const Eigen::AngleAxisd turn(uniform(0.0, 2.0 * kPi), Eigen::Vector3d::UnitZ());
-    return (Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), z_W) * turn).toRotationMatrix();
+    return (sweep_guard_core::rotationBetween(Eigen::Vector3d::UnitZ(), z_W) * turn).toRotationMatrix();
   }
 
  private:

@@ -108,7 +108,7 @@ class ImpactFinder::Search {
       const bool computed = near || !try_known;
       if (computed) {
         const bool close = near && at.gap > margin;
-        if (const auto touch = close ? cornerTouchAt(trajectory, at) : std::nullopt) return touch;
+        if (auto touch = close ? cornerTouchAt(trajectory, at) : std::nullopt) return touch;
         const Separation apart = separationAt(trajectory, at.fraction, margin);
         if (overlapping(apart)) return apart;
         if (apart.gap <= margin + tolerance_) {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "common/rotation_between.h"
 #include "simulation/motion_start.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
@@ -31,7 +32,7 @@ InteractiveMarkerControl control(const std::string& name, std::uint8_t mode, con
   InteractiveMarkerControl control;
   control.name = name;
   control.interaction_mode = mode;
-  control.orientation = tf2::toMsg(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), axis));
+  control.orientation = tf2::toMsg(sweep_guard_core::rotationBetween(Eigen::Vector3d::UnitX(), axis));
   return control;
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/rotation_between.h"
+
 namespace sweep_guard_simulation {
 namespace {
 
@@ -19,7 +21,7 @@ Vector3d frontOf(const sweep_guard_core::Tool& tool, const Vector3d& direction_T
   const auto reach = [&](const ConvexPiece& piece) { return piece.shape_T.support(direction_T); };
   const auto front = std::max_element(tool.pieces().begin(), tool.pieces().end(),
                                       [&](const ConvexPiece& a, const ConvexPiece& b) { return reach(a) < reach(b); });
-  const auto turned = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), direction_T);
+  const auto turned = sweep_guard_core::rotationBetween(Vector3d::UnitZ(), direction_T);
   Vector3d sum = Vector3d::Zero();
   for (int i = 0; i < kDirections; ++i) {
     const double angle = 2.0 * M_PI * (i + 0.5) / kDirections;

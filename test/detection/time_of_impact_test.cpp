@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/rotation_between.h"
 #include "geometry/libccd_overlap.h"
 #include "scenes.h"
 #include "sweep_guard/geometry/separation.h"
@@ -79,7 +80,7 @@ std::vector<Case> straightCases(double scale = 1.0) {
   const Eigen::Matrix3d down = turned(180.0 * kDegree, Vector3d::UnitX());
   const Vector3d off_edge(0.0, 0.6, 0.8);
   const Vector3d aslant(0.48, -0.36, 0.8);
-  const Eigen::Matrix3d on_tip = Eigen::Quaterniond::FromTwoVectors(Vector3d(1, 2, 3), -kZ).matrix();
+  const Eigen::Matrix3d on_tip = rotationBetween(Vector3d(1, 2, 3), -kZ).matrix();
   const Eigen::Matrix3d across = turned(0.2, kZ) * kAlongX;
   const double root = std::sqrt(14.0);
   const Motion landing = slide({0.001, 0.002, 0.02}, {0.001, 0.002, -0.005}, down);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/rotation_between.h"
 #include "evaluation/square_obstacle.h"
 
 namespace sweep_guard_evaluation {
@@ -9,7 +10,7 @@ inline SquareObstacle squareAt(const Eigen::Vector3d& center, const Eigen::Vecto
   SquareObstacle square;
   square.half_side = half_side;
   square.X_WS.translation() = center;
-  square.X_WS.linear() = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal).toRotationMatrix();
+  square.X_WS.linear() = sweep_guard_core::rotationBetween(Eigen::Vector3d::UnitZ(), normal).toRotationMatrix();
   return square;
 }
 

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "input.h"
 #include "require.h"
 #include "ros/camera/depth_image.h"
 #include "ros/camera/pinhole.h"
 #include "sweep_guard/common/error.h"
+#include "target.h"
 
 namespace sweep_guard_fuzz {
 namespace {
@@ -118,10 +118,7 @@ void run(Input input) {
   readPacked(input, /*repairs=*/kind == 2);
 }
 
+const Target kDepthImages("depth_images", run);
+
 }  // namespace
 }  // namespace sweep_guard_fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, size_t size) {
-  sweep_guard_fuzz::run(sweep_guard_fuzz::Input(bytes, size));
-  return 0;
-}

@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "input.h"
 #include "require.h"
 #include "ros/tool/gltf_facets.h"
 #include "ros/tool/mesh_answer.h"
@@ -14,6 +13,7 @@
 #include "ros/tool/mesh_wire.h"
 #include "ros/tool/ply_facets.h"
 #include "ros/tool/stl_facets.h"
+#include "target.h"
 
 namespace sweep_guard_fuzz {
 namespace {
@@ -140,19 +140,17 @@ void checkAnswer(const std::string& answer) {
   require(written(*surface) == answer, "nothing of an answer is lost");
 }
 
-}  // namespace
-}  // namespace sweep_guard_fuzz
-
 // The first byte chooses what the others are.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, size_t size) {
-  sweep_guard_fuzz::Input input(bytes, size);
+const Target kMeshFiles("mesh_files", [](Input input) {
   const int what = input.byte();
   const std::string rest = input.rest();
-  if (what == 'o') sweep_guard_fuzz::checkText(rest, "obj");
-  if (what == 's') sweep_guard_fuzz::checkStl(rest);
-  if (what == 'd') sweep_guard_fuzz::checkText(rest, "dae");
-  if (what == 'p') sweep_guard_fuzz::checkPly(rest);
-  if (what == 'g') sweep_guard_fuzz::checkGltf(rest);
-  if (what == 'a') sweep_guard_fuzz::checkAnswer(rest);
-  return 0;
-}
+  if (what == 'o') checkText(rest, "obj");
+  if (what == 's') checkStl(rest);
+  if (what == 'd') checkText(rest, "dae");
+  if (what == 'p') checkPly(rest);
+  if (what == 'g') checkGltf(rest);
+  if (what == 'a') checkAnswer(rest);
+});
+
+}  // namespace
+}  // namespace sweep_guard_fuzz

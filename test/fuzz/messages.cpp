@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "guard/workpiece_store.h"
-#include "input.h"
 #include "require.h"
 #include "ros/connection/bounded.h"
 #include "ros/input/frames.h"
@@ -20,6 +19,7 @@
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/motion/motion_guard.h"
 #include "sweep_guard/ros/conversions.h"
+#include "target.h"
 #include "wire_bytes.h"
 
 namespace sweep_guard_fuzz {
@@ -34,9 +34,9 @@ constexpr size_t kMaxSize = 1 << 16;
 constexpr size_t kMaxTriangles = 1000;
 
 // What the subscribers of both nodes keep, made anew for each input.
-class World {
+class Subscribers {
  public:
-  World()
+  Subscribers()
       : node_("/"),
         monitor_({milliseconds(100), milliseconds(500), milliseconds(500)}),
         store_([this](const sweep_guard_core::Workpieces& newest) { monitor_.setWorkpieces(newest); }),
@@ -232,16 +232,14 @@ class World {
   sweep_guard_core::MotionGuard motion_guard_;
 };
 
+const Target kMessages("messages", [](Input input) {
+  startRoscpp();
+  Subscribers subscribers;
+  for (int count = 0; count < 20 && !input.atEnd(); ++count) {
+    subscribers.receive(input);
+    subscribers.check();
+  }
+});
+
 }  // namespace
 }  // namespace sweep_guard_fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, size_t size) {
-  sweep_guard_fuzz::startRoscpp();
-  sweep_guard_fuzz::Input input(bytes, size);
-  sweep_guard_fuzz::World world;
-  for (int count = 0; count < 20 && !input.atEnd(); ++count) {
-    world.receive(input);
-    world.check();
-  }
-  return 0;
-}

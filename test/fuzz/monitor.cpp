@@ -3,10 +3,10 @@
 #include <iterator>
 
 #include "guard/cross_check.h"
-#include "input.h"
 #include "monitor_model.h"
 #include "require.h"
 #include "sweep_guard/monitor/warning_monitor.h"
+#include "target.h"
 
 namespace sweep_guard_fuzz {
 namespace {
@@ -446,10 +446,7 @@ class Session {
   WarningMonitor monitor_;
 };
 
+const Target kMonitor("monitor", [](Input input) { Session(input).run(); });
+
 }  // namespace
 }  // namespace sweep_guard_fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, size_t size) {
-  sweep_guard_fuzz::Session(sweep_guard_fuzz::Input(bytes, size)).run();
-  return 0;
-}

@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "common/floating_point.h"
-#include "input.h"
 #include "require.h"
 #include "ros/haptics/haptics_parameters.h"
 #include "ros/motion/motion_parameters.h"
@@ -14,6 +13,7 @@
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/guard/guard.h"
 #include "sweep_guard/haptics/passive_device.h"
+#include "target.h"
 
 namespace sweep_guard_fuzz {
 namespace {
@@ -249,24 +249,20 @@ void useHaptics(const sweep_guard_ros::HapticsParameters& parameters) {
   }
 }
 
-}  // namespace
-}  // namespace sweep_guard_fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, size_t size) {
-  sweep_guard_fuzz::startRoscpp();
-  sweep_guard_fuzz::serverParameters().clear();
-  sweep_guard_fuzz::Input input(bytes, size);
+const Target kParameters("parameters", [](Input input) {
+  startRoscpp();
+  serverParameters().clear();
   switch (input.below(4)) {
     case 3:
-      sweep_guard_fuzz::checkStart(input, "/motion", sweep_guard_ros::loadMotionParameters,
-                                   sweep_guard_fuzz::useMotion);
+      checkStart(input, "/motion", sweep_guard_ros::loadMotionParameters, useMotion);
       break;
     case 2:
-      sweep_guard_fuzz::checkStart(input, "/haptics", sweep_guard_ros::loadHapticsParameters,
-                                   sweep_guard_fuzz::useHaptics);
+      checkStart(input, "/haptics", sweep_guard_ros::loadHapticsParameters, useHaptics);
       break;
     default:
-      sweep_guard_fuzz::checkGuard(input);
+      checkGuard(input);
   }
-  return 0;
-}
+});
+
+}  // namespace
+}  // namespace sweep_guard_fuzz

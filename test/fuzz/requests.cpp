@@ -6,7 +6,6 @@
 
 #include "guard/intention_store.h"
 #include "guard/workpiece_store.h"
-#include "input.h"
 #include "require.h"
 #include "ros/input/frames.h"
 #include "ros/service/attach.h"
@@ -19,6 +18,7 @@
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/guard/guard.h"
 #include "sweep_guard/ros/conversions.h"
+#include "target.h"
 #include "wire_bytes.h"
 
 namespace sweep_guard_fuzz {
@@ -60,9 +60,9 @@ class Call : public ros::CallbackInterface {
 };
 
 // The services and what they ask, once for all inputs.
-class World {
+class Servers {
  public:
-  World()
+  Servers()
       : node_("/guard"),
         robot_node_("/robot"),
         live_(parameters(node_)),
@@ -383,14 +383,12 @@ class World {
   sweep_guard_ros::Controls controls_;
 };
 
+const Target kRequests("requests", [](Input input) {
+  startRoscpp();
+  static auto* const servers = new Servers;  // its threads end with the process
+  servers->call(input);
+  servers->forget();
+});
+
 }  // namespace
 }  // namespace sweep_guard_fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, size_t size) {
-  sweep_guard_fuzz::startRoscpp();
-  static auto* const world = new sweep_guard_fuzz::World;  // its threads end with the process
-  sweep_guard_fuzz::Input input(bytes, size);
-  world->call(input);
-  world->forget();
-  return 0;
-}

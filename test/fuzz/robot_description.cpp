@@ -5,12 +5,12 @@
 #include <cmath>
 #include <set>
 
-#include "input.h"
 #include "require.h"
 #include "ros/tool/robot_description.h"
 #include "ros/tool/robot_tree.h"
 #include "ros/tool/tool_model.h"
 #include "sweep_guard/common/error.h"
+#include "target.h"
 
 namespace sweep_guard_fuzz {
 namespace {
@@ -93,10 +93,7 @@ void check(const std::string& urdf) {
   }
 }
 
+const Target kRobotDescription("robot_description", [](Input input) { check(input.rest()); });
+
 }  // namespace
 }  // namespace sweep_guard_fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, size_t size) {
-  sweep_guard_fuzz::check(std::string(bytes, bytes + size));
-  return 0;
-}

@@ -4,11 +4,11 @@
 #include <memory>
 #include <vector>
 
-#include "input.h"
 #include "require.h"
 #include "ros/scene/message_value.h"
 #include "ros/scene/scene_reader.h"
 #include "sweep_guard/common/error.h"
+#include "target.h"
 
 namespace sweep_guard_fuzz {
 namespace {
@@ -76,10 +76,7 @@ void run(Input input) {
   }
 }
 
+const Target kSceneMessages("scene_messages", run);
+
 }  // namespace
 }  // namespace sweep_guard_fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, size_t size) {
-  sweep_guard_fuzz::run(sweep_guard_fuzz::Input(bytes, size));
-  return 0;
-}

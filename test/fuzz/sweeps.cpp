@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "guard/workpiece_store.h"
-#include "input.h"
 #include "require.h"
 #include "soundness/body.h"
 #include "soundness/exact_motion.h"
 #include "sweep_guard/guard/guard.h"
+#include "target.h"
 
 namespace sweep_guard_fuzz {
 namespace {
@@ -278,10 +278,7 @@ class Scene {
   sweep_guard_core::Prediction prediction_;
 };
 
+const Target kSweeps("sweeps", [](Input input) { Scene(input).run(); });
+
 }  // namespace
 }  // namespace sweep_guard_fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, size_t size) {
-  sweep_guard_fuzz::Scene(sweep_guard_fuzz::Input(bytes, size)).run();
-  return 0;
-}

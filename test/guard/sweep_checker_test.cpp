@@ -144,9 +144,9 @@ TEST(SweepResultTest, MeetsTrianglesWhereTheyWereBeforeTheirSenderRoundedThem) {
       const TriangleMesh mesh = deformed({vertices, {{0, 1, 2}}}, sent);
       const double overlap = 1e-3 * mesh.rounding();
       const Eigen::Vector3d center = X_MF * Eigen::Vector3d(0, 0, kRadius - overlap);
-      const Eigen::Hyperplane<double, 3> kept =
-          Eigen::Hyperplane<double, 3>::Through(mesh.vertex(0), mesh.vertex(1), mesh.vertex(2));
-      if (kept.absDistance(center) > kRadius) ++apart;
+      const Eigen::Vector3d normal =
+          (mesh.vertex(1) - mesh.vertex(0)).cross(mesh.vertex(2) - mesh.vertex(0)).normalized();
+      if (std::abs(normal.dot(center - mesh.vertex(0))) > kRadius) ++apart;
       const Motion rest{placedAt(center), placedAt(center)};
       EXPECT_EQ(testMotion(reference(), ConvexShape::sphere(kRadius), rest, mesh, {}).triangles, Indices{0})
           << distance << " m, " << i;

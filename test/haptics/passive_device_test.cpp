@@ -8,6 +8,7 @@
 #include <deque>
 #include <utility>
 
+#include "common/rotation_between.h"
 #include "motion/random_scenes.h"
 
 namespace sweep_guard_core {
@@ -193,7 +194,7 @@ TEST(ConingBoundTest, NoMotionTurnsFartherFromWhatItsEndsShow) {
     constexpr int kParts = 200;
     const double step = interval / kParts;
     const bool around = random.chance(0.3);
-    const Quaterniond frame = Quaterniond::FromTwoVectors(Vector3d::UnitZ(), random.direction());
+    const Quaterniond frame = rotationBetween(Vector3d::UnitZ(), random.direction());
     const double lap = limits.max_turn_acceleration / rate * random.uniform(0.2, 1.0);
     const double changes = random.uniform(0.0, 0.1);
     Vector3d target = rate * random.direction();

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "common/rotation_between.h"
 #include "scenes.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
 
@@ -49,8 +50,8 @@ inline TriangleMesh organ() { return wavyHull(24, 48, 0.3); }
 inline Eigen::Isometry3d poseInOrgan(Random& random) {
   const Eigen::Vector3d out = random.direction();
   Eigen::Isometry3d X_MT = Eigen::Isometry3d::Identity();
-  X_MT.linear() = random.turn(random.uniform(0.0, 1.0)) *
-                  Eigen::Quaterniond::FromTwoVectors(-Eigen::Vector3d::UnitZ(), out).toRotationMatrix();
+  X_MT.linear() =
+      random.turn(random.uniform(0.0, 1.0)) * rotationBetween(-Eigen::Vector3d::UnitZ(), out).toRotationMatrix();
   X_MT.translation() = random.uniform(0.07, 0.1) * out;
   return X_MT;
 }

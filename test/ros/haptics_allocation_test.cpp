@@ -13,10 +13,10 @@ namespace {
 
 using geometry_msgs::WrenchStamped;
 
-const ros::Duration kWarmUp(0.5);
-const ros::Duration kCounted(1.0);
+const ros::Duration kWarmUpTime(0.5);
+const ros::Duration kCountedTime(1.0);
 constexpr double kCycles = 1000.0;  // in that time
-const std::set<std::string> kThreads = {"forces"};
+const std::set<std::string> kForceThreads = {"forces"};
 
 tf2_msgs::TFMessage deviceFrame() {
   tf2_msgs::TFMessage message;
@@ -31,6 +31,7 @@ tf2_msgs::TFMessage deviceFrame() {
 class HapticsAllocationTest : public testing::Test {
  protected:
   HapticsAllocationTest() : haptics_(ros::NodeHandle(), ros::NodeHandle("~"), Process::kShared) {
+    spinner_.start();
     geometry_msgs::PoseStamped pose;
     pose.header.frame_id = "world";
     pose.pose.orientation.w = 1.0;
@@ -49,6 +50,7 @@ class HapticsAllocationTest : public testing::Test {
   }
 
   ros::NodeHandle node_;
+  ros::AsyncSpinner spinner_{2};
   ros::Publisher frames_ = node_.advertise<tf2_msgs::TFMessage>("/tf", 1);
   const Repeater frames_repeater_{std::chrono::milliseconds(10), [this] { frames_.publish(deviceFrame()); }};
   FakeGuard guard_{"/fake"};
@@ -59,21 +61,13 @@ class HapticsAllocationTest : public testing::Test {
 
 TEST_F(HapticsAllocationTest, OfACycleOnlyThePublicationAllocates) {
   guard_.setGap(-0.004);
-  const ros::Time begin = awaitCycleAfter(awaitForce() + kWarmUp);
+  const ros::Time begin = awaitCycleAfter(awaitForce() + kWarmUpTime);
   const sweep_guard_core::AllocationsOfAllThreads made;
-  awaitCycleAfter(begin + kCounted);
-  expectAllocations(made, kThreads,
+  awaitCycleAfter(begin + kCountedTime);
+  expectAllocations(made, kForceThreads,
                     {{"ros::Publisher::publish", false, 4.2, "roscpp makes bytes of the message, and queues them"}},
                     kCycles, /*growth=*/0.0);
 }
 
 }  // namespace
 }  // namespace sweep_guard_ros
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "haptics");
-  ros::AsyncSpinner spinner(2);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}

@@ -18,9 +18,9 @@ namespace {
 
 using geometry_msgs::TwistStamped;
 
-constexpr int kWarmUp = 500;  // commands
-constexpr int kCounted = 1000;
-const std::set<std::string> kThreads = {"commands"};
+constexpr int kWarmUpCommands = 500;
+constexpr int kCountedCommands = 1000;
+const std::set<std::string> kCommandThreads = {"commands"};
 
 // Sends a command, and waits for what the motion guard makes of it.
 class Commander {
@@ -58,6 +58,7 @@ class Commander {
 class MotionAllocationTest : public testing::Test {
  protected:
   MotionAllocationTest() : motion_guard_(ros::NodeHandle(), ros::NodeHandle("~"), Process::kShared) {
+    spinner_.start();
     motion_guard_.start();
   }
 
@@ -66,6 +67,7 @@ class MotionAllocationTest : public testing::Test {
     while (ros::ok() && !(sent >= from && sent <= to)) sent = commander_.send(commanded)->twist.linear.x;
   }
 
+  ros::AsyncSpinner spinner_{1};
   MotionGuardNode motion_guard_;
   MotionWorld world_;
   Commander commander_;
@@ -73,34 +75,27 @@ class MotionAllocationTest : public testing::Test {
 
 TEST_F(MotionAllocationTest, OfACommandThatIsPassedOnOnlyThePublicationAllocates) {
   awaitSpeed(0.1, 0.1, 0.1);
-  commander_.repeat(kWarmUp, 0.1);
+  commander_.repeat(kWarmUpCommands, 0.1);
   const sweep_guard_core::AllocationsOfAllThreads made;
-  commander_.repeat(kCounted, 0.1);
-  expectAllocations(made, kThreads,
-                    {{"ros::Publisher::publish", false, 2.2, "roscpp hands the message to its subscriber"}}, kCounted);
+  commander_.repeat(kCountedCommands, 0.1);
+  expectAllocations(made, kCommandThreads,
+                    {{"ros::Publisher::publish", false, 2.2, "roscpp hands the message to its subscriber"}},
+                    kCountedCommands);
 }
 
 TEST_F(MotionAllocationTest, OfACommandThatIsSlowedDownOnlyItsCopyAndTheStatusAllocate) {
   world_.change([](auto& state) { state.X_WT = Eigen::Translation3d(0.02, 0.0, 0.0); });
   awaitSpeed(-0.5, -0.3, -0.01);
-  commander_.repeat(kWarmUp, -0.5);
+  commander_.repeat(kWarmUpCommands, -0.5);
   const sweep_guard_core::AllocationsOfAllThreads made;
-  commander_.repeat(kCounted, -0.5);
+  commander_.repeat(kCountedCommands, -0.5);
   expectAllocations(
-      made, kThreads,
+      made, kCommandThreads,
       {{"ros::Publisher::publish", false, 4.2, "roscpp: the command, and both forms of the status"},
        {"boost::make_shared", true, 1.1, "nodelets keep what is published: each command is its own message"},
        {"statusOf", true, 4.1, "names and text, which change with the gap"}},
-      kCounted);
+      kCountedCommands);
 }
 
 }  // namespace
 }  // namespace sweep_guard_ros
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "motion_guard");
-  ros::AsyncSpinner spinner(1);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}

@@ -17,9 +17,9 @@
 namespace sweep_guard_ros {
 namespace {
 
-constexpr size_t kWarmUp = 2000;  // poses
-constexpr size_t kCounted = 1000;
-const std::set<std::string> kThreads = {"guard", "poses", "meshes", "converting", "storing", "warnings"};
+constexpr size_t kWarmUpPoses = 2000;
+constexpr size_t kCountedPoses = 1000;
+const std::set<std::string> kGuardThreads = {"guard", "poses", "meshes", "converting", "storing", "warnings"};
 
 const std::vector<AllowedAllocation> kAllowed = {
     {"ResultPublisher::publish", false, 40.0, "messages are published as shared pointers, which nodelets keep"},
@@ -38,8 +38,9 @@ class Results {
  public:
   explicit Results(ros::NodeHandle guard) {
     guard.setCallbackQueue(&queue_);
-    contacts_ = guard.subscribe<sweep_guard::Contacts>("contacts", kWarmUp, [&](const auto&) { ++swept_; });
-    predictions_ = guard.subscribe<sweep_guard::Prediction>("prediction", kWarmUp, [&](const auto&) { ++predicted_; });
+    contacts_ = guard.subscribe<sweep_guard::Contacts>("contacts", kWarmUpPoses, [&](const auto&) { ++swept_; });
+    predictions_ =
+        guard.subscribe<sweep_guard::Prediction>("prediction", kWarmUpPoses, [&](const auto&) { ++predicted_; });
   }
 
   void awaitContacts(size_t count) {
@@ -60,13 +61,13 @@ TEST(NodeAllocationTest, FromAMessageToAWarningOnlyWhatIsListedAllocates) {
   SweepGuardNode guard(ros::NodeHandle(), ros::NodeHandle("sweep_guard"), Process::kShared);
   guard.start();
   Results results(ros::NodeHandle("sweep_guard"));
-  results.awaitContacts(kWarmUp);
+  results.awaitContacts(kWarmUpPoses);
 
   const sweep_guard_core::AllocationsOfAllThreads made;
   const size_t begin = results.swept();
-  results.awaitContacts(begin + kCounted);
-  expectAllocations(made, kThreads, kAllowed, static_cast<double>(results.swept() - begin));
-  EXPECT_GT(results.predicted(), kCounted / 2);
+  results.awaitContacts(begin + kCountedPoses);
+  expectAllocations(made, kGuardThreads, kAllowed, static_cast<double>(results.swept() - begin));
+  EXPECT_GT(results.predicted(), kCountedPoses / 2);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/rotation_between.h"
 #include "ros/scene/placed_message.h"
 #include "scene/primitives.h"
 #include "sweep_guard/common/error.h"
@@ -58,7 +59,7 @@ TriangleSurface readPlane(const MessageValue& plane) {
   const double distance = -coef.at(3).number() / length;
   if (!(length > 1e-10) || !std::isfinite(distance)) throw InvalidInput("a plane has no normal, or is not finite");
   const Eigen::Vector3d up = normal / length;
-  const Eigen::Quaterniond R = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), up);
+  const Eigen::Quaterniond R = sweep_guard_core::rotationBetween(Eigen::Vector3d::UnitZ(), up);
   TriangleSurface surface = sweep_guard_core::floorPrimitive();
   for (Eigen::Vector3d& vertex : surface.vertices) vertex = R * vertex + distance * up;
   return surface;

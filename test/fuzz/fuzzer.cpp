@@ -1,0 +1,6 @@
+#include "target.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, size_t size) {
+  sweep_guard_fuzz::targets().begin()->second(sweep_guard_fuzz::Input(bytes, size));
+  return 0;
+}
