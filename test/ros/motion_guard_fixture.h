@@ -21,9 +21,9 @@ namespace sweep_guard_ros {
 
 /// Keeps the messages of a topic until a test takes them.
 template <typename Msg>
-class Listener {
+class Inbox {
  public:
-  Listener(ros::NodeHandle& node, const std::string& topic)
+  Inbox(ros::NodeHandle& node, const std::string& topic)
       : subscriber_(node.subscribe<Msg>(topic, 1000, [this](const boost::shared_ptr<const Msg>& msg) {
           const std::lock_guard lock(mutex_);
           messages_.push_back(*msg);

@@ -93,7 +93,7 @@ class MotionGuardNodeTest : public testing::Test {
     commandPose(Eigen::Isometry3d(Eigen::Translation3d(x, 0.0, 0.0)));
     guarded_poses_.await([=](const PoseStamped& sent) { return sent.pose.position.x == x; }, "the pose");
     const ros::Time seen = ros::Time::now() + ros::Duration(kSilence + 0.2);
-    Listener<MotionStatus> statuses(node_, "/pose/motion_guard/status");
+    Inbox<MotionStatus> statuses(node_, "/pose/motion_guard/status");
     statuses.await(
         [=](const MotionStatus& next) { return next.header.stamp > seen && next.code == MotionStatus::NO_WARNING; },
         "a tool that is there");
@@ -111,11 +111,11 @@ class MotionGuardNodeTest : public testing::Test {
   ros::Publisher stamped_ = node_.advertise<TwistStamped>("/stamped/command", 10);
   ros::Publisher pose_ = node_.advertise<PoseStamped>("/pose/command", 10);
   ros::Publisher tip_ = node_.advertise<Twist>("/tip/command", 10);  // its commands are of the tip, along turned axes
-  Listener<Twist> guarded_tip_{node_, "/tip/guarded_command"};
-  Listener<Twist> guarded_twists_{node_, "/twist/guarded_command"};
-  Listener<TwistStamped> guarded_stamped_{node_, "/stamped/guarded_command"};
-  Listener<PoseStamped> guarded_poses_{node_, "/pose/guarded_command"};
-  Listener<MotionStatus> statuses_{node_, "/twist/motion_guard/status"};
+  Inbox<Twist> guarded_tip_{node_, "/tip/guarded_command"};
+  Inbox<Twist> guarded_twists_{node_, "/twist/guarded_command"};
+  Inbox<TwistStamped> guarded_stamped_{node_, "/stamped/guarded_command"};
+  Inbox<PoseStamped> guarded_poses_{node_, "/pose/guarded_command"};
+  Inbox<MotionStatus> statuses_{node_, "/twist/motion_guard/status"};
   MotionWorld world_;
   std::atomic<bool> stands_ = false;
   ros::Subscriber robot_;
@@ -169,8 +169,8 @@ TEST_F(MotionGuardNodeTest, StopsWhenTheGuardDoesNotKnowOrIsSilent) {
       {"the guard is silent", [](auto& state) { state.warns = false; }},
       {"no new separating planes", [](auto& state) { state.finds_planes = false; }},
       {"no new tool pose", [](auto& state) { state.has_pose = false; }}};
-  Listener<std_msgs::Bool> locks(node_, "/twist/motion_guard/lock");
-  Listener<std_msgs::Float64> scales(node_, "/twist/motion_guard/velocity_scale");
+  Inbox<std_msgs::Bool> locks(node_, "/twist/motion_guard/lock");
+  Inbox<std_msgs::Float64> scales(node_, "/twist/motion_guard/velocity_scale");
   for (const auto& [cause, change] : cases) {
     awaitFreeMotion();
     locks.await([](const std_msgs::Bool& lock) { return !lock.data; }, "no lock");
@@ -189,8 +189,8 @@ TEST_F(MotionGuardNodeTest, StopsWhenTheGuardDoesNotKnowOrIsSilent) {
 
 TEST_F(MotionGuardNodeTest, FollowsTheToolInTf) {
   const ros::Publisher commands = node_.advertise<Twist>("/in_tf/command", 10);
-  Listener<Twist> guarded(node_, "/in_tf/guarded_command");
-  Listener<MotionStatus> statuses(node_, "/in_tf/motion_guard/status");
+  Inbox<Twist> guarded(node_, "/in_tf/guarded_command");
+  Inbox<MotionStatus> statuses(node_, "/in_tf/motion_guard/status");
   command(twist(-0.1), commands);
   guarded.await([](const Twist& sent) { return sent == twist(-0.1); }, "free motion");
   place(0.0005);
@@ -208,8 +208,8 @@ TEST_F(MotionGuardNodeTest, FollowsTheToolInTf) {
 // Nothing would show what a command does to it.
 TEST_F(MotionGuardNodeTest, AToolThatOnlyStaticTransformsPlaceIsNotMovedAndTheTextSaysWhy) {
   const ros::Publisher commands = node_.advertise<Twist>("/resting/command", 10);
-  Listener<Twist> guarded(node_, "/resting/guarded_command");
-  Listener<MotionStatus> statuses(node_, "/resting/motion_guard/status");
+  Inbox<Twist> guarded(node_, "/resting/guarded_command");
+  Inbox<MotionStatus> statuses(node_, "/resting/motion_guard/status");
   command(twist(-0.1), commands);
   const std::string why = "only static transforms place 'turned' in 'world'";
   const MotionStatus status =
@@ -217,7 +217,7 @@ TEST_F(MotionGuardNodeTest, AToolThatOnlyStaticTransformsPlaceIsNotMovedAndTheTe
   EXPECT_EQ(status.code, MotionStatus::HALT_FOR_COLLISION);
   EXPECT_EQ(status.cause, "no tool pose yet");
   for (int i = 0; i < 20; ++i) EXPECT_TRUE(isZero(guarded.await([](const Twist&) { return true; }, "what is sent")));
-  Listener<diagnostic_msgs::DiagnosticArray> diagnostics(node_, "/diagnostics");
+  Inbox<diagnostic_msgs::DiagnosticArray> diagnostics(node_, "/diagnostics");
   const auto says_why = [&](const auto& line) { return line.message.find(why) == 0; };
   diagnostics.await(
       [&](const diagnostic_msgs::DiagnosticArray& next) {
@@ -229,8 +229,8 @@ TEST_F(MotionGuardNodeTest, AToolThatOnlyStaticTransformsPlaceIsNotMovedAndTheTe
 // The zero is sent at the first of these times at which nothing is let through.
 TEST(HoldPublisherTest, AScaleOfZeroAndALockFollowTheZeroThatIsSentBefore) {
   ros::NodeHandle node("hold_publisher_test");
-  Listener<std_msgs::Bool> locks(node, "lock");
-  Listener<std_msgs::Float64> scales(node, "velocity_scale");
+  Inbox<std_msgs::Bool> locks(node, "lock");
+  Inbox<std_msgs::Float64> scales(node, "velocity_scale");
   HoldPublisher hold(node);
   const auto expect = [&](bool holds) {
     EXPECT_EQ(locks.await([](const std_msgs::Bool&) { return true; }, "a lock").data, holds);
@@ -302,7 +302,7 @@ struct SlowNode {
   }
 
   ros::Publisher publisher;
-  Listener<TwistStamped> guarded;
+  Inbox<TwistStamped> guarded;
   std::shared_ptr<std::atomic<int>> count = std::make_shared<std::atomic<int>>(0);
 };
 
@@ -356,7 +356,7 @@ TEST_F(MotionGuardNodeTest, ARepeatedCommandIsLimitedAnew) {
 }
 
 TEST_F(MotionGuardNodeTest, SaysThatCommandsComeMoreRarelyThanTheyAreInForce) {
-  Listener<diagnostic_msgs::DiagnosticArray> diagnostics(node_, "/diagnostics");
+  Inbox<diagnostic_msgs::DiagnosticArray> diagnostics(node_, "/diagnostics");
   world_.change(
       [&](auto& state) { state.command = slowly([this](const ros::Time& /*now*/) { twist_.publish(twist(0.1)); }); });
   const MotionStatus status =
@@ -392,9 +392,9 @@ TEST(AbsentGuardTest, NamesTheTopicAndTheArgumentToGive) {
 
 TEST_F(MotionGuardNodeTest, SaysThatNoGuardIsInItsNamespaceAndWhichArgumentToGive) {
   const ros::Publisher commands = node_.advertise<Twist>("/lonely/command", 10);
-  Listener<MotionStatus> statuses(node_, "/lonely/motion_guard/status");
-  Listener<Twist> guarded(node_, "/lonely/guarded_command");
-  Listener<diagnostic_msgs::DiagnosticArray> diagnostics(node_, "/diagnostics");
+  Inbox<MotionStatus> statuses(node_, "/lonely/motion_guard/status");
+  Inbox<Twist> guarded(node_, "/lonely/guarded_command");
+  Inbox<diagnostic_msgs::DiagnosticArray> diagnostics(node_, "/diagnostics");
   command(twist(0.1), commands);
   EXPECT_TRUE(isZero(guarded.await([](const Twist&) { return true; }, "zero")));
   const std::string text = absentGuardText("/lonely/sweep_guard");
@@ -409,7 +409,7 @@ TEST_F(MotionGuardNodeTest, SaysThatNoGuardIsInItsNamespaceAndWhichArgumentToGiv
 }
 
 TEST_F(MotionGuardNodeTest, ACommandThatIsTooOldIsZero) {
-  Listener<MotionStatus> statuses(node_, "/stamped/motion_guard/status");
+  Inbox<MotionStatus> statuses(node_, "/stamped/motion_guard/status");
   world_.change([=](auto& state) {
     state.command = [=](const ros::Time& now) {
       TwistStamped old;
@@ -454,7 +454,7 @@ TEST_F(MotionGuardNodeTest, ACommandIsAlongTheAxesOfItsFrame) {
 TEST_F(MotionGuardNodeTest, ACommandInAnUnknownFrameIsRefused) {
   commandStamped(twist(0.2), "nowhere");
   guarded_stamped_.await([](const TwistStamped& next) { return isZero(next.twist); }, "zero");
-  Listener<std_msgs::Int8> codes(node_, "/stamped/motion_guard/servo_status");
+  Inbox<std_msgs::Int8> codes(node_, "/stamped/motion_guard/servo_status");
   codes.await([](const std_msgs::Int8& code) { return code.data == MotionStatus::INVALID; }, "INVALID");
 }
 
@@ -469,7 +469,7 @@ TEST_F(MotionGuardNodeTest, ACommandThatIsNotFiniteIsRefused) {
 
 // On a busy machine, where inputs pause, in one of several tries.
 TEST_F(MotionGuardNodeTest, APoseIsCaughtUpWithAndHeldWhenTheGuardDoesNotKnow) {
-  Listener<MotionStatus> statuses(node_, "/pose/motion_guard/status");
+  Inbox<MotionStatus> statuses(node_, "/pose/motion_guard/status");
   int held = 0;
   for (int i = 0; i < 10 && held < 20; ++i) {
     world_.change([](auto& state) { state.level = sweep_guard::Warning::CLEAR; });
@@ -490,7 +490,7 @@ TEST_F(MotionGuardNodeTest, APoseIsCaughtUpWithAndHeldWhenTheGuardDoesNotKnow) {
 // The robot was stopped by somebody else, and is released.
 TEST_F(MotionGuardNodeTest, APoseWaitsForAToolThatStandsAndIsTakenBackToItWhenTheGuardDoesNotKnow) {
   constexpr double kReach = 0.25 * 0.03;  // max_speed * lag/time_constant
-  Listener<MotionStatus> statuses(node_, "/pose/motion_guard/status");
+  Inbox<MotionStatus> statuses(node_, "/pose/motion_guard/status");
   stands_ = true;
   startRobot();
   commandPose(Eigen::Isometry3d(Eigen::Translation3d(1.2, 0.0, 0.0)));
@@ -532,7 +532,7 @@ TEST_F(MotionGuardNodeTest, APoseBeyondAWallThatCameIsTakenBackToTheTool) {
 TEST_F(MotionGuardNodeTest, APoseThatIsRefusedIsAnsweredInTheFrameOfTheOneBefore) {
   moveRobotTo(0.81);
   commandPose(Eigen::Isometry3d(Eigen::Translation3d(0.9, 0.0, 0.0)), "nowhere");
-  Listener<MotionStatus> statuses(node_, "/pose/motion_guard/status");
+  Inbox<MotionStatus> statuses(node_, "/pose/motion_guard/status");
   statuses.await([](const MotionStatus& next) { return next.code == MotionStatus::INVALID; }, "refused");
   guarded_poses_.clear();
   for (int i = 0; i < 20; ++i) {
@@ -544,7 +544,7 @@ TEST_F(MotionGuardNodeTest, APoseThatIsRefusedIsAnsweredInTheFrameOfTheOneBefore
 
 TEST_F(MotionGuardNodeTest, AStampedCommandWithoutAFrameIsRefused) {
   commandStamped(twist(0.2), "");
-  Listener<MotionStatus> statuses(node_, "/stamped/motion_guard/status");
+  Inbox<MotionStatus> statuses(node_, "/stamped/motion_guard/status");
   const MotionStatus status =
       statuses.await([](const MotionStatus& next) { return next.code == MotionStatus::INVALID; }, "refused");
   EXPECT_TRUE(has(status.text, "set command_frame"));
@@ -554,7 +554,7 @@ TEST_F(MotionGuardNodeTest, AStampedCommandWithoutAFrameIsRefused) {
 // It may have turned since.
 TEST_F(MotionGuardNodeTest, ACommandInAFrameWhoseTransformIsOldIsRefused) {
   const ros::Publisher transforms = node_.advertise<tf2_msgs::TFMessage>("/tf", 10);
-  Listener<MotionStatus> statuses(node_, "/stamped/motion_guard/status");
+  Inbox<MotionStatus> statuses(node_, "/stamped/motion_guard/status");
   commandStamped(twist(0.2), "camera");
   tf2_msgs::TFMessage message;
   message.transforms.resize(1);
@@ -610,8 +610,8 @@ TEST_F(MotionGuardNodeTest, RebasingIsRefusedUnlessPosesAreIncremental) {
 }
 
 TEST_F(MotionGuardNodeTest, IncrementalPosesMoveTheToolFromWhereItIs) {
-  Listener<PoseStamped> guarded(node_, "/clutch/guarded_command");
-  Listener<MotionStatus> statuses(node_, "/clutch/motion_guard/status");
+  Inbox<PoseStamped> guarded(node_, "/clutch/guarded_command");
+  Inbox<MotionStatus> statuses(node_, "/clutch/motion_guard/status");
   const auto count = std::make_shared<std::atomic<int>>();  // of guarded poses
   const ros::Subscriber counter = node_.subscribe<PoseStamped>(
       "/clutch/guarded_command", 1000, [count](const boost::shared_ptr<const PoseStamped>&) { ++*count; });
@@ -687,7 +687,7 @@ TEST_F(MotionGuardNodeTest, ARefusedParameterEndsTheNodeWithOneLine) {
 }
 
 TEST_F(MotionGuardNodeTest, ASecondPublisherIsAnErrorInTheDiagnostics) {
-  Listener<diagnostic_msgs::DiagnosticArray> diagnostics(node_, "/diagnostics");
+  Inbox<diagnostic_msgs::DiagnosticArray> diagnostics(node_, "/diagnostics");
   const ros::Publisher second = node_.advertise<Twist>("/twist/guarded_command", 1);
   diagnostics.await(
       [](const diagnostic_msgs::DiagnosticArray& next) {
