@@ -94,19 +94,24 @@ function(sweep_guard_rostest_program name)
   sweep_guard_label_rostest(${name} ros)
 endfunction()
 
-# sweep_guard_rostest(NAME [SOURCE...]) - NAME.test, which names the files of its tests to the program ros_test: NAME_test and
-# others. What fifty programs would read is read seven times
-function(sweep_guard_rostest name)
+# sweep_guard_rostest_in(PROGRAM NAME [SOURCE...]) - NAME.test, which names the files of its tests to a program that has those of
+# others, too: NAME_test and the sources
+function(sweep_guard_rostest_in program name)
   file(READ ${name}.test launch)
   foreach(source ${name}_test.cpp ${ARGN})
-    target_sources(ros_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/${source})
+    target_sources(${program} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/${source})
     get_filename_component(file ${source} NAME_WE)
-    if(file MATCHES "_test$" AND NOT launch MATCHES "ros_test\" args=\"([^\"]* )?(--gtest_filter|${file}[ \"])")
+    if(file MATCHES "_test$" AND NOT launch MATCHES "${program}\" args=\"([^\"]* )?(--gtest_filter|${file}[ \"])")
       message(FATAL_ERROR "${name}.test does not name ${file}: nothing would run its tests")
     endif()
   endforeach()
-  add_rostest(${name}.test DEPENDENCIES ros_test)
+  add_rostest(${name}.test DEPENDENCIES ${program})
   sweep_guard_label_rostest(${name} ros)
+endfunction()
+
+# sweep_guard_rostest(NAME [SOURCE...]) - in ros_test: what fifty programs would read is read seven times
+function(sweep_guard_rostest name)
+  sweep_guard_rostest_in(ros_test ${name} ${ARGN})
 endfunction()
 
 # sweep_guard_label_rostest(NAME LABEL...) - of NAME.test in the folder of the caller

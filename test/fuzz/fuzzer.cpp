@@ -1,3 +1,4 @@
+// libFuzzer calls this. The program has one target.
 #include "target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, size_t size) {

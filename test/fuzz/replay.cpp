@@ -1,4 +1,4 @@
-// replay TARGET FOLDER...: runs a target on the files of folders, without libFuzzer: what was found once must not come again. The
+// replay_inputs TARGET FOLDER...: runs a target on the files of folders, without libFuzzer: what was found once must not come again. The
 // first folder has files.
 #include <cstdint>
 #include <filesystem>

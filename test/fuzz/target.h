@@ -4,12 +4,13 @@
 #include <string>
 
 #include "input.h"
+#include "require.h"
 
 namespace sweep_guard_fuzz {
 
 using RunTarget = void (*)(Input input);
 
-/// Those that this program has: one with libFuzzer, all of them for replay.
+/// Returns the targets of this program by their names: one in a fuzzer, all in replay_inputs.
 inline std::map<std::string, RunTarget>& targets() {
   static std::map<std::string, RunTarget> all;
   return all;
@@ -17,7 +18,7 @@ inline std::map<std::string, RunTarget>& targets() {
 
 /// A variable of this type adds a target.
 struct Target {
-  Target(const char* name, RunTarget run) { targets()[name] = run; }
+  Target(const char* name, RunTarget run) { require(targets().emplace(name, run).second, "each target has a name"); }
 };
 
 }  // namespace sweep_guard_fuzz

@@ -174,7 +174,8 @@ TEST(MotionPredictorTest, ItsCovariancesAreThoseOfErrorsOfJointsAndRoot) {
       const Matrix6d& covariance = motion.body_paths[body].back().covariance;
       const double tolerance = i < 3 ? 0.1 : 0.35;
       EXPECT_LT((covariance - found).norm(), tolerance * found.norm()) << "robot " << i << ", body " << body;
-      EXPECT_EQ(Eigen::LLT<Matrix6d>(covariance + 1e-12 * Matrix6d::Identity()).info(), Eigen::Success);
+      EXPECT_EQ(Eigen::LLT<Matrix6d>(covariance + 1e-12 * Matrix6d::Identity()).info(), Eigen::Success)
+          << "robot " << i << ", body " << body;
     }
   }
 }

@@ -1,16 +1,21 @@
-// Arguments are names of files, without their ending: their tests are run. Without any, all are.
+// Arguments are names of files, without their ending: their tests are run, but for those that GTEST_FILTER excludes. Without any
+// argument, all are.
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <set>
 
 namespace {
 
+// Returns what a filter excludes, as it is written there: -A:B.
+std::string excludedBy(const std::string& filter) { return filter.substr(std::min(filter.find('-'), filter.size())); }
+
 // Returns a filter that chooses the tests of the files.
 std::string filterOf(const std::set<std::string>& files) {
-  std::string filter;
+  std::string filter = ":";  // nothing: before exclusions, an empty text would be all
   const testing::UnitTest& program = *testing::UnitTest::GetInstance();
   for (int i = 0; i < program.total_test_suite_count(); ++i) {
     const testing::TestSuite& suite = *program.GetTestSuite(i);
@@ -29,9 +34,10 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "sweep_guard_test");
   const ros::NodeHandle alive;
   testing::InitGoogleTest(&argc, argv);
-  if (argc > 1) testing::GTEST_FLAG(filter) = filterOf({argv + 1, argv + argc});
+  const std::string excluded = excludedBy(testing::GTEST_FLAG(filter));
+  if (argc > 1) testing::GTEST_FLAG(filter) = filterOf({argv + 1, argv + argc}) + excluded;
   const int failed = RUN_ALL_TESTS();
-  const bool nothing = testing::UnitTest::GetInstance()->test_to_run_count() == 0;
+  const bool nothing = testing::UnitTest::GetInstance()->test_to_run_count() == 0 && excluded.empty();
   if (nothing) std::cerr << "no test is chosen\n";
   return nothing ? 1 : failed;
 }
