@@ -18,7 +18,9 @@ inline std::map<std::string, RunTarget>& targets() {
 
 /// A variable of this type adds a target.
 struct Target {
-  Target(const char* name, RunTarget run) { require(targets().emplace(name, run).second, "each target has a name"); }
+  Target(const char* name, RunTarget run) {
+    require(targets().emplace(name, run).second, "each target has a name of its own");
+  }
 };
 
 }  // namespace sweep_guard_fuzz
