@@ -4,9 +4,19 @@ set -euo pipefail
 
 root=$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")
 build=$root/build
-ros=/opt/ros/noetic
 # shellcheck source=/dev/null
 system=$(. "${SWEEP_GUARD_OS_RELEASE:-/etc/os-release}" && echo "$ID ${VERSION_ID:-}") || system=  # as in: debian 12
+
+# find_ros [FOLDER] - where ROS is, or would be installed: the place of Noetic, or that of ROS-O, which newer systems have
+find_ros() {
+  local folder=${1:-/opt/ros}
+  if [[ ! -e $folder/noetic && (-e $folder/one || $system =~ ^ubuntu\ 2[24]\.04$) ]]; then
+    echo "$folder/one"
+  else
+    echo "$folder/noetic"
+  fi
+}
+ros=$(find_ros "${SWEEP_GUARD_ROS_FOLDER:-}")
 
 say() { echo "-- $*"; }
 fail() {
@@ -58,7 +68,7 @@ install_packages() {
   local missing quiet=() output=/dev/stdout
   mapfile -t missing < <(missing_packages "$@")
   [[ ${#missing[@]} -gt 0 ]] || return 0
-  if [[ ! $system =~ ^(debian 1[123]|ubuntu 20\.04)$ ]]; then
+  if ! names_here >/dev/null; then
     go_on_without "${missing[@]}"
     return
   fi
@@ -80,9 +90,10 @@ go_on_without() {
 }
 
 fail_to_install() {
+  local where=wiki.ros.org/noetic/Installation/Ubuntu
   [[ $system == ubuntu* ]] || fail "the packages could not be installed"
-  fail "the packages could not be installed. Those named ros-noetic-* need the package source of ROS:" \
-    "see wiki.ros.org/noetic/Installation/Ubuntu"
+  [[ $ros != */one ]] || where=github.com/ros-o/ros-o
+  fail "the packages could not be installed. Those named ros-${ros##*/}-* need the package source of ROS: see $where"
 }
 
 # install_listed FILE... - the packages listed in files of this folder, by their names on this system
@@ -92,15 +103,22 @@ install_listed() {
   install_packages "${packages[@]}"
 }
 
+# names_here - the list of the names that packages have on this system only, if they are known
+names_here() {
+  case "$system, ${ros##*/}" in
+    debian\ 1[12],*) echo /dev/null ;;
+    debian\ 13,*) echo "$root/scripts/packages-trixie.txt" ;;
+    ubuntu\ 20.04,\ noetic | ubuntu\ 2[24].04,\ one) echo "$root/scripts/packages-ubuntu.txt" ;;
+    *) return 1 ;;
+  esac
+}
+
 # packages_here - the names on this system of the Debian packages on standard input
 packages_here() {
-  local names=/dev/null
-  case $system in
-    'ubuntu 20.04') names=$root/scripts/packages-focal.txt ;;
-    'debian 13') names=$root/scripts/packages-trixie.txt ;;
-  esac
-  awk -v names="$names" '
-    BEGIN { while ((getline line <names) > 0) if (line !~ /^#/) { split(line, pair); here[pair[1]] = pair[2] } }
+  local names
+  names=$(names_here || echo /dev/null)
+  awk -v names="$names" -v ros="ros-${ros##*/}-" '
+    BEGIN { while ((getline line <names) > 0) if (line !~ /^#/) { split(line, pair); sub(/^ros-noetic-/, ros, pair[2]); here[pair[1]] = pair[2] } }
     { print ($1 in here) ? here[$1] : $1 }' | sort -u
 }
 
@@ -147,7 +165,7 @@ enter() {
 
 enter_workspace() { enter "$build/devel"; }
 
-# enter_ros - Debian's ROS is in /usr, others are in /opt
+# enter_ros - Debian's ROS is in /usr
 enter_ros() { [[ $system == debian* || ! -e $ros/setup.bash ]] || enter "$ros"; }
 
 # What is started here talks over the loopback, so that the host's own name need not resolve. localhost must:

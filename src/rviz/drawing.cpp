@@ -54,7 +54,7 @@ Ogre::MaterialPtr makeShadedMaterial() {
   return material;
 }
 
-void drop(const Ogre::MaterialPtr& material) { Ogre::MaterialManager::getSingleton().remove(material); }
+void drop(const Ogre::MaterialPtr& material) { Ogre::MaterialManager::getSingleton().remove(material->getHandle()); }
 
 void paint(Ogre::Pass& pass, const Ogre::ColourValue& color) {
   pass.setLightingEnabled(true);

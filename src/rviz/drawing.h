@@ -3,9 +3,10 @@
 #include <OgreColourValue.h>
 #include <OgreMaterial.h>
 #include <OgreSceneNode.h>
-#include <OgreVector.h>
 
 #include <vector>
+
+#include "rviz/ogre_vector.h"
 
 namespace Ogre {
 class ManualObject;

@@ -1,13 +1,14 @@
 #pragma once
 
 #include <OgreQuaternion.h>
-#include <OgreVector.h>
 #include <geometry_msgs/Pose.h>
 #include <shape_msgs/MeshTriangle.h>
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <vector>
+
+#include "rviz/ogre_vector.h"
 
 namespace sweep_guard_rviz {
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <OgreRay.h>
-#include <OgreVector.h>
 #include <sweep_guard/DeformableMesh.h>
 #include <sweep_guard/Intend.h>
 #include <sweep_guard/MeshVertices.h>
@@ -10,6 +9,8 @@
 #include <map>
 #include <optional>
 #include <string>
+
+#include "rviz/ogre_vector.h"
 
 namespace sweep_guard_rviz {
 

@@ -93,10 +93,10 @@ SurfaceVisual::~SurfaceVisual() {
 void SurfaceVisual::clear() {
   if (entity_ == nullptr) return;
   scene_.destroyEntity(entity_);
-  Ogre::MeshManager::getSingleton().remove(mesh_);
+  Ogre::MeshManager::getSingleton().remove(mesh_->getHandle());
   entity_ = nullptr;
-  mesh_.reset();
-  buffer_.reset();
+  mesh_ = {};
+  buffer_ = {};
 }
 
 void SurfaceVisual::setTriangles(std::vector<shape_msgs::MeshTriangle> triangles, size_t vertices) {
@@ -115,7 +115,7 @@ void SurfaceVisual::build() {
   mesh_->sharedVertexData = data;
   data->vertexCount = vertices_;
   data->vertexDeclaration->addElement(0, offsetof(Vertex, position), Ogre::VET_FLOAT3, Ogre::VES_POSITION);
-  data->vertexDeclaration->addElement(0, offsetof(Vertex, color), Ogre::VET_UBYTE4_NORM, Ogre::VES_DIFFUSE);
+  data->vertexDeclaration->addElement(0, offsetof(Vertex, color), Ogre::VET_COLOUR_ABGR, Ogre::VES_DIFFUSE);
   buffer_ = Ogre::HardwareBufferManager::getSingleton().createVertexBuffer(
       sizeof(Vertex), vertices_, Ogre::HardwareBuffer::HBU_DYNAMIC_WRITE_ONLY_DISCARDABLE);
   data->vertexBufferBinding->setBinding(0, buffer_);
@@ -144,9 +144,9 @@ void SurfaceVisual::setIndices(Layer layer, const std::vector<std::uint32_t>& tr
     corners.insert(corners.end(), indices.begin(), indices.end());
   }
   counts_[layer] = triangles.size();
-  Ogre::IndexData& data = *mesh_->getSubMesh(static_cast<size_t>(layer))->indexData;
+  Ogre::IndexData& data = *mesh_->getSubMesh(static_cast<std::uint16_t>(layer))->indexData;
   data.indexCount = corners.size();
-  if (!data.indexBuffer || data.indexBuffer->getNumIndexes() < corners.size()) {
+  if (data.indexBuffer.get() == nullptr || data.indexBuffer->getNumIndexes() < corners.size()) {
     data.indexBuffer = Ogre::HardwareBufferManager::getSingleton().createIndexBuffer(
         Ogre::HardwareIndexBuffer::IT_32BIT, std::max<size_t>(3, corners.size()),
         Ogre::HardwareBuffer::HBU_DYNAMIC_WRITE_ONLY_DISCARDABLE);
@@ -231,7 +231,7 @@ size_t SurfaceVisual::drawnTriangles(Layer layer) const {
 void SurfaceVisual::updateVisibility() {
   if (entity_ == nullptr) return;
   for (int layer = 0; layer < kLayers; ++layer) {
-    entity_->getSubEntity(static_cast<size_t>(layer))->setVisible(drawnTriangles(static_cast<Layer>(layer)) > 0);
+    entity_->getSubEntity(static_cast<unsigned>(layer))->setVisible(drawnTriangles(static_cast<Layer>(layer)) > 0);
   }
 }
 

@@ -5,7 +5,6 @@
 #include <OgreMaterial.h>
 #include <OgreMesh.h>
 #include <OgrePrerequisites.h>
-#include <OgreVector.h>
 #include <shape_msgs/MeshTriangle.h>
 #include <sweep_guard/ObjectView.h>
 
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "rviz/heat_map.h"
+#include "rviz/ogre_vector.h"
 
 namespace sweep_guard_rviz {
 

@@ -84,7 +84,7 @@ void ToolVisual::clear() {
   instances_.clear();
   shown_ = 0;
   for (const Ogre::MeshPtr& mesh : meshes_) {
-    if (mesh) Ogre::MeshManager::getSingleton().remove(mesh);
+    if (mesh.get() != nullptr) Ogre::MeshManager::getSingleton().remove(mesh->getHandle());
   }
   meshes_.clear();
   sizes_.clear();
@@ -118,7 +118,8 @@ void ToolVisual::addBody(const sweep_guard::ToolShape& shape, size_t body) {
 
 void ToolVisual::makeInstances() {
   for (const Ogre::MeshPtr& mesh : meshes_) {
-    Instance instance{node_.createChildSceneNode(), mesh ? scene_.createEntity(mesh) : nullptr, makeShadedMaterial()};
+    Instance instance{node_.createChildSceneNode(), mesh.get() != nullptr ? scene_.createEntity(mesh) : nullptr,
+                      makeShadedMaterial()};
     if (instance.entity != nullptr) {
       instance.entity->setMaterial(instance.material);
       instance.node->attachObject(instance.entity);

@@ -4,13 +4,14 @@
 #include <OgreMaterial.h>
 #include <OgreMesh.h>
 #include <OgrePrerequisites.h>
-#include <OgreVector.h>
 #include <geometry_msgs/Pose.h>
 #include <sweep_guard/MotionStatus.h>
 #include <sweep_guard/ToolShape.h>
 
 #include <optional>
 #include <vector>
+
+#include "rviz/ogre_vector.h"
 
 namespace sweep_guard_rviz {
 

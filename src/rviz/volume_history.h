@@ -1,10 +1,11 @@
 #pragma once
 
-#include <OgreVector.h>
 #include <sweep_guard/TestedVolume.h>
 
 #include <deque>
 #include <vector>
+
+#include "rviz/ogre_vector.h"
 
 namespace sweep_guard_rviz {
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <OgreVector.h>
 #include <rviz/ogre_helpers/movable_text.h>
 #include <sweep_guard/DeformableMesh.h>
 #include <sweep_guard/MeshVertices.h>
@@ -13,6 +12,7 @@
 
 #include "rviz/display_style.h"
 #include "rviz/drawing.h"
+#include "rviz/ogre_vector.h"
 #include "rviz/surface_visual.h"
 #include "rviz/volume_history.h"
 

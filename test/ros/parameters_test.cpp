@@ -694,7 +694,7 @@ TEST_F(ParametersTest, AreRefusedByNameValueAndRange) {
 TEST_F(ParametersTest, ATextThatIsANumberIsRefusedWithTheNumberThatYamlWants) {
   const auto refusalOf = [&](const std::string& key, const auto& value) {
     node_.setParam(key, value);
-    const std::string message = refusal(node_);
+    std::string message = refusal(node_);
     EXPECT_TRUE(has(message, "/guarded/" + key + " is "));
     node_.deleteParam(key);
     return message;

@@ -1,0 +1,8 @@
+#pragma once
+
+// OGRE 1.9, rviz's on Ubuntu, has a header for each dimension.
+#if __has_include(<OgreVector.h>)
+#include <OgreVector.h>
+#else
+#include <OgreVector3.h>
+#endif
