@@ -6,17 +6,8 @@ root=$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")
 build=$root/build
 # shellcheck source=/dev/null
 system=$(. "${SWEEP_GUARD_OS_RELEASE:-/etc/os-release}" && echo "$ID ${VERSION_ID:-}") || system=  # as in: debian 12
-
-# find_ros [FOLDER] - where ROS is, or would be installed: the place of Noetic, or that of ROS-O, which newer systems have
-find_ros() {
-  local folder=${1:-/opt/ros}
-  if [[ ! -e $folder/noetic && (-e $folder/one || $system =~ ^ubuntu\ 2[24]\.04$) ]]; then
-    echo "$folder/one"
-  else
-    echo "$folder/noetic"
-  fi
-}
-ros=$(find_ros "${SWEEP_GUARD_ROS_FOLDER:-}")
+ros=${SWEEP_GUARD_ROS_FOLDER:-/opt/ros}/one  # of ROS-O
+[[ -e $ros/setup.bash ]] || ros=${ros%/one}/noetic
 
 say() { echo "-- $*"; }
 fail() {
@@ -103,7 +94,7 @@ install_listed() {
   install_packages "${packages[@]}"
 }
 
-# names_here - the list of the names that packages have on this system only, if they are known
+# names_here - the file with the names that packages have only on this system; fails where they are unknown
 names_here() {
   case "$system, ${ros##*/}" in
     debian\ 1[12],*) echo /dev/null ;;
@@ -117,9 +108,9 @@ names_here() {
 packages_here() {
   local names
   names=$(names_here || echo /dev/null)
-  awk -v names="$names" -v ros="ros-${ros##*/}-" '
-    BEGIN { while ((getline line <names) > 0) if (line !~ /^#/) { split(line, pair); sub(/^ros-noetic-/, ros, pair[2]); here[pair[1]] = pair[2] } }
-    { print ($1 in here) ? here[$1] : $1 }' | sort -u
+  awk -v names="$names" '
+    BEGIN { while ((getline line <names) > 0) if (line !~ /^#/) { split(line, pair); here[pair[1]] = pair[2] } }
+    { print ($1 in here) ? here[$1] : $1 }' | sed "s/^ros-noetic-/ros-${ros##*/}-/" | sort -u
 }
 
 # show_progress - of Ninja: each line on a terminal; elsewhere one line for each twentieth, and whatever else it says

@@ -32,7 +32,7 @@ QImage Rviz::picture() {
   window.update();
   QImage image(static_cast<int>(window.getWidth()), static_cast<int>(window.getHeight()), QImage::Format_RGB32);
   const Ogre::PixelBox box(window.getWidth(), window.getHeight(), 1, Ogre::PF_A8R8G8B8, image.bits());
-#if OGRE_VERSION_MINOR < 10
+#if OGRE_VERSION < 0x10A00
   window.copyContentsToMemory(box);
 #else
   window.copyContentsToMemory(Ogre::Box(0, 0, window.getWidth(), window.getHeight()), box);
