@@ -33,6 +33,9 @@ function(sweep_guard_unite target)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # a tenth less time for a tenth more memory: its heap is seldom swept below 512 MB
+    target_compile_options(${target} PRIVATE "SHELL:--param ggc-min-heapsize=524288")
+  endif()
   if(CMAKE_CURRENT_SOURCE_DIR MATCHES "^${PROJECT_SOURCE_DIR}/test")  # a local name may be that of another test's constant
     target_compile_options(${target} PRIVATE -Wno-shadow)
   endif()
