@@ -33,7 +33,7 @@ function(sweep_guard_unite target)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # a tenth less time for a tenth more memory: its heap is seldom swept below 512 MB
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # its heap is not swept below 512 MB: less time, up to a quarter more memory
     target_compile_options(${target} PRIVATE "SHELL:--param ggc-min-heapsize=524288")
   endif()
   if(CMAKE_CURRENT_SOURCE_DIR MATCHES "^${PROJECT_SOURCE_DIR}/test")  # a local name may be that of another test's constant

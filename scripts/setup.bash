@@ -35,9 +35,9 @@ clean_environment() {
   export ROS_HOME="$build/ros"  # logs belong to the build, not to ~/.ros
   export ROS_LANG_DISABLE=genlisp  # nobody here reads messages in Lisp, and each costs a process
   export CCACHE_BASEDIR="$root" CCACHE_NOHASHDIR=1  # the copies of scripts/mutation find what is compiled here
-  # More compilers at once take the caches from each other: an eighth more time than with one more than there are processors.
-  export CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(($(nproc) + 1))}
   export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS:-pch_defines,time_macros}  # else it does without precompiled headers
+  # With more compilers at once, which take the caches from each other, two processors need an eighth more time.
+  export CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(($(nproc) + 1))}
 }
 
 as_root() {
