@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -64,14 +65,14 @@ sensor_msgs::Image imageOf(const Scene& scene, ros::Time stamp) {
 
 class CameraTest : public ::testing::Test {
  protected:
-  CameraTest() {
+  explicit CameraTest(bool publishes_info = true) {
     info_.header.frame_id = "front_optical";
     info_.width = kColumns;
     info_.height = kRows;
     info_.P = {kFocalLength, 0.0, 31.5, 0.0, 0.0, kFocalLength, 23.5, 0.0, 0.0, 0.0, 1.0, 0.0};
     info_publisher_ = node_.advertise<sensor_msgs::CameraInfo>("/front/depth/camera_info", 1, /*latch=*/true);
     images_ = node_.advertise<sensor_msgs::Image>("/front/depth/image_rect", 16);
-    info_publisher_.publish(info_);
+    if (publishes_info) info_publisher_.publish(info_);
     static_transforms_.publish(mount());
   }
 
@@ -143,6 +144,26 @@ class CameraTest : public ::testing::Test {
   ros::Publisher images_;
   ros::Publisher static_transforms_ = node_.advertise<tf2_msgs::TFMessage>("/tf_static", 10, /*latch=*/true);
 };
+
+// Before the tests that publish one: the guard keeps it.
+class CameraWithoutInfoTest : public CameraTest {
+ protected:
+  CameraWithoutInfoTest() : CameraTest(/*publishes_info=*/false) {}
+};
+
+// The topics of a camera connect one after the other.
+TEST_F(CameraWithoutInfoTest, ImagesOfTheFirstSecondAreLeftOutAndTheNextRefused) {
+  const auto begin = std::chrono::steady_clock::now();
+  const auto elapsed = [&] { return std::chrono::steady_clock::now() - begin; };
+  Warning warning;
+  while ((warning.reasons & Warning::MESH_INVALID) == 0U && elapsed() < std::chrono::seconds(30)) {
+    step(imageOf(table, probe().time()), kOverTable);
+    warning = probe().warnings().back();
+    EXPECT_EQ(warning.level, Warning::UNKNOWN) << warning.text;
+  }
+  EXPECT_GE(elapsed(), std::chrono::seconds(1));
+  EXPECT_TRUE(has(warning.text, "no camera_info has come on /front/depth/camera_info")) << warning.text;
+}
 
 TEST_F(CameraTest, NothingIsClearBeforeTheFirstImage) {
   Warning last;

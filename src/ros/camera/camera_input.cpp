@@ -29,6 +29,7 @@ constexpr size_t kMaxInfoSize = 1U << 16U;    // [bytes]
 constexpr size_t kLeastPoints = 7;            // of the tool in the picture
 constexpr double kLeastFound = 0.5;
 constexpr sweep_guard_core::Duration kPatience = std::chrono::seconds(5);
+constexpr sweep_guard_core::Duration kInfoPatience = std::chrono::seconds(1);
 constexpr size_t kRemembered = 64;  // images: snapshots that none of them needed are given back
 
 bool isSame(const sweep_guard_core::Pinhole& a, const sweep_guard_core::Pinhole& b) {
@@ -104,6 +105,7 @@ void CameraInput::keepShares(const sweep_guard_core::Timestamps& image) {
 
 template <typename Msg>
 void CameraInput::take(const Msg& msg, SteadyTime received) {
+  if (awaitsInfo(received)) return;
   try {
     checkHeader(msg.header);
     const Time stamp = fromMsg(msg.header.stamp);
@@ -127,15 +129,22 @@ void CameraInput::take(const Msg& msg, SteadyTime received) {
   points_.publish(*surface_, depths_, *newest_);
 }
 
+sensor_msgs::CameraInfo::ConstPtr CameraInput::info() const {
+  const sweep_guard_core::Lock lock(info_mutex_);
+  return info_;
+}
+
+// Both topics connect on their own, so the first images may come before it.
+bool CameraInput::awaitsInfo(SteadyTime received) {
+  if (!first_received_) first_received_ = received;
+  return received - *first_received_ < kInfoPatience && !info();
+}
+
 // Begins anew with a camera of another size or calibration, and after another tool, in whose place the surroundings were seen.
 void CameraInput::prepare(const ImageSize& size) {
-  sensor_msgs::CameraInfo::ConstPtr info;
-  {
-    const sweep_guard_core::Lock lock(info_mutex_);
-    info = info_;
-  }
-  if (!info) throw InvalidInput("no camera_info has come on " + info_topic_ + ": publish it beside the images");
-  const sweep_guard_core::Pinhole pinhole = pinholeOf(*info, size, isNamedRectified(topic_));
+  const auto newest_info = info();
+  if (!newest_info) throw InvalidInput("no camera_info has come on " + info_topic_ + ": publish it beside the images");
+  const sweep_guard_core::Pinhole pinhole = pinholeOf(*newest_info, size, isNamedRectified(topic_));
   const auto bodies = dependencies_.parameters.get()->bodies;
   const bool same_size = empty_ && size.width == size_.width && size.height == size_.height;
   if (same_size && surface_ && isSame(pinhole, pinhole_) && bodies == bodies_) return;

@@ -76,6 +76,8 @@ class CameraInput {
   BoundedSubscriber subscribe(ros::NodeHandle node);
   template <typename Msg>
   void take(const Msg& msg, sweep_guard_core::SteadyTime received);
+  sensor_msgs::CameraInfo::ConstPtr info() const;
+  bool awaitsInfo(sweep_guard_core::SteadyTime received);
   void prepare(const ImageSize& size);
   double secondsSince(sweep_guard_core::Time stamp) const;
   Eigen::Isometry3d locate(const std::string& frame, sweep_guard_core::Time stamp);
@@ -93,12 +95,13 @@ class CameraInput {
   std::atomic<std::uint64_t> dropped_ = 0;
   mutable sweep_guard_core::Mutex shares_mutex_;
   std::optional<Shares> shares_ GUARDED_BY(shares_mutex_);
-  sweep_guard_core::Mutex info_mutex_;
+  mutable sweep_guard_core::Mutex info_mutex_;
   sensor_msgs::CameraInfo::ConstPtr info_ GUARDED_BY(info_mutex_);  // the newest
 
   // Used by the thread that takes the images:
   PointsPublisher points_;
   SelfVolumes self_;
+  std::optional<sweep_guard_core::SteadyTime> first_received_;
   std::string frame_;
   ImageSize size_{};
   sweep_guard_core::Pinhole pinhole_{};
