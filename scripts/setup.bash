@@ -36,8 +36,8 @@ clean_environment() {
   export ROS_LANG_DISABLE=genlisp  # nobody here reads messages in Lisp, and each costs a process
   export CCACHE_BASEDIR="$root" CCACHE_NOHASHDIR=1  # the copies of scripts/mutation find what is compiled here
   export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS:-pch_defines,time_macros}  # else it does without precompiled headers
-  # With more compilers at once, which take the caches from each other, two processors need an eighth more time.
-  export CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(($(nproc) + 1))}
+  # Ninja starts two more by default: compilers take the caches from each other, and one more costs an eighth of the time.
+  export CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}
 }
 
 as_root() {

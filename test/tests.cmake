@@ -1,16 +1,19 @@
-# sweep_guard_label(TEST LABEL...) - unit: runs anywhere, in seconds; ros: starts a master; slow: takes longer than 20 s, and
-# begins before the others; search: draws as many cases as SWEEP_GUARD_SCENES and SWEEP_GUARD_CASES say; nightly: not in
+# sweep_guard_label(TEST LABEL...) - unit: runs anywhere, in seconds; ros: starts a master; slow: begins before others of
+# its kind; search: draws as many cases as SWEEP_GUARD_SCENES and SWEEP_GUARD_CASES say; nightly: not in
 # scripts/test
 function(sweep_guard_label test)
-  # Of six sixths that two processors have: what starts a master waits for half of the time. What only computes comes first, so
-  # that it does not keep the others from a processor.
-  if(NOT ros IN_LIST ARGN)
-    set_tests_properties(${test} PROPERTIES LABELS "${ARGN}" PROCESSORS 3 COST 60)
-  elseif(slow IN_LIST ARGN)
-    set_tests_properties(${test} PROPERTIES LABELS "${ARGN}" PROCESSORS 2 COST 30)
-  else()
-    set_tests_properties(${test} PROPERTIES LABELS "${ARGN}" PROCESSORS 2)
+  # scripts/test gives two processors six slots: three for a test that only computes, two for one with a master, which also
+  # waits. Tests that compute begin first: beside them, the others would wait for a processor.
+  set(slots 3)
+  set(cost 60)
+  if(ros IN_LIST ARGN)
+    set(slots 2)
+    set(cost 0)
   endif()
+  if(slow IN_LIST ARGN)
+    math(EXPR cost "${cost} + 30")
+  endif()
+  set_tests_properties(${test} PROPERTIES LABELS "${ARGN}" PROCESSORS ${slots} COST ${cost})
 endfunction()
 
 # The main program, and the headers that are precompiled for the tests.

@@ -134,16 +134,22 @@ sensor_msgs::CameraInfo::ConstPtr CameraInput::info() const {
   return info_;
 }
 
-// Both topics connect on their own, so the first images may come before it.
+std::string CameraInput::missingInfo() const {
+  return "no camera_info has come on " + info_topic_ + ": publish it beside the images";
+}
+
+// The two topics connect separately: the first images may come before the camera_info.
 bool CameraInput::awaitsInfo(SteadyTime received) {
   if (!first_received_) first_received_ = received;
-  return received - *first_received_ < kInfoPatience && !info();
+  if (received - *first_received_ >= kInfoPatience || info()) return false;
+  record_.lacks(missingInfo());
+  return true;
 }
 
 // Begins anew with a camera of another size or calibration, and after another tool, in whose place the surroundings were seen.
 void CameraInput::prepare(const ImageSize& size) {
   const auto newest_info = info();
-  if (!newest_info) throw InvalidInput("no camera_info has come on " + info_topic_ + ": publish it beside the images");
+  if (!newest_info) throw InvalidInput(missingInfo());
   const sweep_guard_core::Pinhole pinhole = pinholeOf(*newest_info, size, isNamedRectified(topic_));
   const auto bodies = dependencies_.parameters.get()->bodies;
   const bool same_size = empty_ && size.width == size_.width && size.height == size_.height;

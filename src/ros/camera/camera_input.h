@@ -42,8 +42,9 @@ struct CameraInputDependencies {
 };
 
 /// Takes the images of one depth camera: puts what they show into the fixed frame at their stamps, and hands it to the guard, each
-/// image in its turn. What is refused, or dropped because 16 images wait, makes the warning UNKNOWN until the next image. Messages
-/// arrive in a thread that all cameras share; a thread of its own takes them.
+/// image in its turn. What is refused, or dropped because 16 images wait, makes the warning UNKNOWN until the next image. Images
+/// before the first camera_info are left out for 1 s, and then refused. Messages arrive in a thread that all cameras share; a thread
+/// of its own takes them.
 class CameraInput {
  public:
   /// @param node  whose callbacks run in the thread that receives
@@ -77,6 +78,7 @@ class CameraInput {
   template <typename Msg>
   void take(const Msg& msg, sweep_guard_core::SteadyTime received);
   sensor_msgs::CameraInfo::ConstPtr info() const;
+  std::string missingInfo() const;
   bool awaitsInfo(sweep_guard_core::SteadyTime received);
   void prepare(const ImageSize& size);
   double secondsSince(sweep_guard_core::Time stamp) const;
