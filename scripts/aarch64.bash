@@ -25,7 +25,7 @@ build() {
 # Those that are scripts look into the programs with the tools of this processor.
 test_core() {
   cd "$there"
-  SWEEP_GUARD_SCENES=1 SWEEP_GUARD_SLOWER=20 ctest --no-tests=error --output-on-failure -j6 -F -R '_test$|^soundness_'
+  SWEEP_GUARD_SCENES=1 SWEEP_GUARD_SLOWER=20 ctest --no-tests=error --output-on-failure -j2 -F -R '_test$|^soundness_'
 }
 
 program() { find "$1" -name answers -type f -executable; }

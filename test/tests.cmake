@@ -2,18 +2,15 @@
 # its kind; search: draws as many cases as SWEEP_GUARD_SCENES and SWEEP_GUARD_CASES say; nightly: not in
 # scripts/test
 function(sweep_guard_label test)
-  # scripts/test gives two processors six slots: three for a test that only computes, two for one with a master, which also
-  # waits. Tests that compute begin first: beside them, the others would wait for a processor.
-  set(slots 3)
+  # Tests that only compute begin first: beside them, those with a master would wait for a processor.
   set(cost 60)
   if(ros IN_LIST ARGN)
-    set(slots 2)
     set(cost 0)
   endif()
   if(slow IN_LIST ARGN)
     math(EXPR cost "${cost} + 30")
   endif()
-  set_tests_properties(${test} PROPERTIES LABELS "${ARGN}" PROCESSORS ${slots} COST ${cost})
+  set_tests_properties(${test} PROPERTIES LABELS "${ARGN}" COST ${cost})
 endfunction()
 
 # The main program, and the headers that are precompiled for the tests.
